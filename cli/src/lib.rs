@@ -16,6 +16,7 @@ mod man;
 mod modes;
 mod new;
 mod plot;
+mod reproduce;
 mod run;
 mod screen;
 mod statics;
@@ -69,6 +70,8 @@ enum Command {
     View(view::Arguments),
     /// Find the cheapest coupling, basis and integrator with which a case holds a tolerance
     Advise(advise::Arguments),
+    /// Compute figures, tables and claims of papers again, and write a report
+    Reproduce(reproduce::Arguments),
     /// List all kinds that a case may choose, with their keys
     List(list::Arguments),
     /// Print the JSON Schema of case files, for editors
@@ -109,6 +112,7 @@ pub fn program(words: Vec<OsString>) -> u8 {
     };
     let outcome = match arguments.command {
         Command::Run(arguments) => run::run(&arguments),
+        Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
         Command::Sweep(arguments) => sweep::sweep(&arguments),
         Command::New(arguments) => new::new(&arguments),
         Command::Compare(arguments) => compare::compare(&arguments),

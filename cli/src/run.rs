@@ -275,7 +275,7 @@ fn extremes(trajectory: &Trajectory, errors: Option<&Errors>) -> String {
         let error = of(&channel.name);
         let unit = if channel.unit.is_empty() { "1" } else { &channel.unit };
         let value = |x: f64, error: Option<f64>| match error {
-            Some(error) if error.is_finite() => screen::with_error(x, error),
+            Some(error) if error.is_finite() => flexion_results::with_error(x, error),
             _ => format!("{x:.6e}"),
         };
         let mut row = vec![
@@ -303,7 +303,7 @@ fn sequence(rungs: &[Rung]) -> String {
     }
     let mut rows = vec![["refined", "quantity", "value", "error", "order"].map(str::to_owned).to_vec()];
     for Rung { changes, quantity, value, error, order } in rungs {
-        let value = value.map_or("-".to_owned(), |value| screen::with_error(value, *error));
+        let value = value.map_or("-".to_owned(), |value| flexion_results::with_error(value, *error));
         let order = order.map_or("-".to_owned(), |order| format!("{order:.1}"));
         rows.push(vec![changes.join(" "), quantity.clone(), value, format!("{error:.1e}"), order]);
     }

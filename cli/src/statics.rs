@@ -96,7 +96,7 @@ fn described(path: &LoadPath) -> String {
         let stability = point.stability.map_or_else(|| "unknown".to_owned(), |found| found.to_string());
         let error = point.error.as_ref();
         let stated = |value: f64, error: Option<f64>| match error {
-            Some(error) => screen::with_error(value, error),
+            Some(error) => flexion_results::with_error(value, error),
             None => format!("{value:.6}"),
         };
         // The load factor of the last point is the one that was asked for.

@@ -356,7 +356,7 @@ impl Prepared {
     }
 
     /// The same without shapes and scene, for those who look at the columns alone.
-    pub(crate) fn without_pictures(self) -> Prepared {
+    pub fn without_pictures(self) -> Prepared {
         Prepared { shapes: None, scene: Scene::default(), ..self }
     }
 

@@ -1,5 +1,6 @@
 //! Vibrations of a case, at rest or in steady rotation: modes at one speed, and their diagram over speeds.
 
+mod comparison;
 mod diagram;
 mod linear;
 mod modes;

@@ -219,9 +219,16 @@ pub(super) fn energies(trajectory: &Trajectory) -> Vec<Panel> {
 
 /// The axis of a column.
 pub(super) fn axis(channel: &Channel) -> Axis {
-    let known = QUANTITIES.iter().find(|(name, _)| *name == channel.name);
-    let quantity = known.map_or_else(|| capitalised(&channel.name.replace(['.', '_'], " ")), |k| k.1.into());
-    Axis::new(quantity, channel.unit.replace('*', "·").replace("^2", "²").replace("^3", "³"))
+    Axis::of_column(&channel.name, &channel.unit)
+}
+
+impl Axis {
+    /// The axis of a column of this name with this unit: `Tip deflection w₂`, `m`.
+    pub fn of_column(name: &str, unit: &str) -> Axis {
+        let known = QUANTITIES.iter().find(|(known, _)| *known == name);
+        let quantity = known.map_or_else(|| capitalised(&name.replace(['.', '_'], " ")), |k| k.1.into());
+        Axis::new(quantity, unit.replace('*', "·").replace("^2", "²").replace("^3", "³"))
+    }
 }
 
 pub(super) fn points(trajectory: &Trajectory, index: usize) -> Vec<(f64, f64)> {

@@ -1,0 +1,233 @@
+//! `flexion reproduce`: figures, tables and claims of papers, computed again.
+
+use crate::run::stop_on_ctrl_c;
+use crate::{Outcome, screen};
+use flexion_reproduce::{
+    Answer, Described, Options, Progress, Reproduced, built_in, built_in_names, check, compute, expected,
+    from_folder, identity_of_program, of_paper, write,
+};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
+
+/// Papers, and what becomes of them.
+#[derive(clap::Args)]
+#[command(after_help = "Examples:
+  flexion reproduce
+  flexion reproduce P1 P4/F9 --output results/reproduce
+  flexion reproduce all --long
+  flexion reproduce my_paper --output results/my_paper
+  flexion reproduce P3 P5 --check
+
+A paper is one of those that are built in, or a folder with a paper.toml; PAPER/ITEM is one figure or table of it. Runs that are done are kept in the
+folder of the results, and the same program takes them up again. The page is report.html; the values are beside it as CSV.
+
+Exit codes: 0 all is computed (with --check: and as accepted); 1 a paper is rejected; 2 stopped, or with --check something has changed.")]
+pub struct Arguments {
+    /// Papers or items [default: all papers that are built in]
+    #[arg(value_name = "PAPER")]
+    papers: Vec<String>,
+    /// Folder of the report
+    #[arg(long, short, value_name = "DIR", default_value = "results/reproduce")]
+    output: PathBuf,
+    /// Compute the runs too that take long
+    #[arg(long)]
+    long: bool,
+    /// Compare all values with those that were accepted, computing all anew, and write nothing
+    #[arg(long)]
+    check: bool,
+    /// Write the values to expected.toml of a paper in a folder, for --check
+    #[arg(long, conflicts_with = "check")]
+    accept: bool,
+    /// Number of threads [default: one for each processor]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    threads: usize,
+}
+
+/// A paper, where it is from, and its items that are asked for.
+struct Asked {
+    folder: Option<PathBuf>,
+    paper: Described,
+    items: Vec<String>,
+}
+
+/// Computes papers again.
+pub fn reproduce(arguments: &Arguments) -> Outcome {
+    let Some(papers) = asked(&arguments.papers) else { return Outcome::Rejected };
+    if arguments.accept && papers.iter().any(|of| of.folder.is_none()) {
+        screen::report(
+            "error: --accept needs the folder of a paper, e.g. `flexion reproduce papers/P1 --accept`\n",
+        );
+        return Outcome::Rejected;
+    }
+    let stop = stop_on_ctrl_c();
+    let stopped = || stop.load(Ordering::Relaxed);
+    let keep = (!arguments.check).then(|| arguments.output.join("kept"));
+    let identity = identity_of_program();
+    let mut answers: Vec<Vec<Option<Answer>>> = Vec::new();
+    for Asked { paper, items, .. } in &papers {
+        let (needs, numbers) = of_paper(paper);
+        let only: BTreeSet<usize> =
+            numbers.iter().filter(|((item, _), _)| items.contains(item)).map(|(_, number)| *number).collect();
+        let options = Options {
+            long: arguments.long,
+            only: Some(only),
+            threads: arguments.threads,
+            keep: keep.clone(),
+            identity: identity.clone(),
+        };
+        let bar = ProgressBar::new(0);
+        if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {pos}/{len} runs  {eta} left") {
+            bar.set_style(style);
+        }
+        bar.set_prefix(paper.name.clone());
+        let computed = compute(&paper.cases, &needs, &options, &stopped, &|Progress { done, of, .. }| {
+            bar.set_length(of as u64);
+            bar.set_position(done as u64);
+        });
+        bar.finish_and_clear();
+        match computed {
+            Ok(computed) => answers.push(computed),
+            Err(error) => {
+                screen::report(&format!("{error}\n"));
+                return Outcome::Incomplete;
+            }
+        }
+    }
+    if arguments.check {
+        return checked(&papers, &answers);
+    }
+    if arguments.accept {
+        for (of, answers) in papers.iter().zip(&answers) {
+            let Some(folder) = &of.folder else { continue };
+            let text = expected(&of.paper, answers);
+            if let Err(error) = flexion_results::write_file(&folder.join("expected.toml"), text.as_bytes()) {
+                screen::report(&format!("error: {error}\n"));
+                return Outcome::Incomplete;
+            }
+        }
+    }
+    let reproduced: Vec<Reproduced<'_>> = papers
+        .iter()
+        .zip(&answers)
+        .map(|(of, answers)| Reproduced { paper: &of.paper, answers, items: of.items.clone() })
+        .collect();
+    let files = match write(&reproduced, &arguments.output) {
+        Ok(files) => files,
+        Err(error) => {
+            screen::report(&format!("error: {error}\n"));
+            return Outcome::Incomplete;
+        }
+    };
+    let mut rows = vec![
+        ["paper", "holds", "does not hold", "not decided", "lost", "not run"].map(String::from).to_vec(),
+    ];
+    for paper in &reproduced {
+        let verdicts = paper.verdicts();
+        let count =
+            |word: &str| verdicts.iter().filter(|(_, verdict)| verdict.word() == word).count().to_string();
+        let counts = ["holds", "fails", "undecided", "lost", "not-run"].map(count);
+        rows.push(std::iter::once(paper.paper.name.clone()).chain(counts).collect());
+    }
+    screen::print(&screen::table(&rows));
+    if let Some(report) = files.iter().find(|file| file.ends_with("report.html")) {
+        screen::print(&format!("\n  report  {}\n", report.display()));
+    }
+    Outcome::Finished
+}
+
+/// The papers that these words name; what is wrong goes to standard error.
+fn asked(words: &[String]) -> Option<Vec<Asked>> {
+    let names = if words.is_empty() || words.iter().any(|word| word == "all") {
+        built_in_names()
+    } else {
+        words.to_vec()
+    };
+    let mut out: Vec<Asked> = Vec::new();
+    let mut sound = true;
+    for word in &names {
+        let known = |name: &str| built_in_names().iter().any(|built| built == name);
+        let (name, item) = match word.split_once('/') {
+            Some((name, item)) if known(name) => (name, Some(item.to_owned())),
+            _ => (word.as_str(), None),
+        };
+        let folder = (!known(name)).then(|| Path::new(name).to_owned());
+        let read = match &folder {
+            Some(folder) if folder.join("paper.toml").is_file() => from_folder(folder),
+            // An item of a paper in a folder.
+            Some(_)
+                if name
+                    .rsplit_once('/')
+                    .is_some_and(|(folder, _)| Path::new(folder).join("paper.toml").is_file()) =>
+            {
+                let (folder, item) = name.rsplit_once('/').unwrap_or((name, ""));
+                match from_folder(Path::new(folder)) {
+                    Ok(paper) => {
+                        sound &=
+                            take(&mut out, Some(Path::new(folder).to_owned()), paper, Some(item.to_owned()));
+                        continue;
+                    }
+                    Err(error) => Err(error),
+                }
+            }
+            Some(_) => built_in(name),
+            None => built_in(name),
+        };
+        match read {
+            Ok(paper) => sound &= take(&mut out, folder, paper, item),
+            Err(error) => {
+                screen::report(&format!("error: {error}\n"));
+                sound = false;
+            }
+        }
+    }
+    sound.then_some(out)
+}
+
+/// Takes up a paper, or one item more of it; whether it has the item.
+fn take(out: &mut Vec<Asked>, folder: Option<PathBuf>, paper: Described, item: Option<String>) -> bool {
+    let there: Vec<String> = paper.items.iter().map(|(id, _)| id.clone()).collect();
+    if let Some(item) = item.as_ref().filter(|item| !there.contains(item)) {
+        let nearest = flexion_results::nearest(item, there.iter().map(String::as_str));
+        let nearest = nearest.map_or(String::new(), |name| format!("; perhaps {name}"));
+        screen::report(&format!(
+            "error: {} has no item {item}{nearest}; it has {}\n",
+            paper.name,
+            there.join(", ")
+        ));
+        return false;
+    }
+    let items = item.map_or(there, |item| vec![item]);
+    match out.iter_mut().find(|of| of.paper.name == paper.name && of.folder == folder) {
+        Some(of) => of.items.extend(items),
+        None => out.push(Asked { folder, paper, items }),
+    }
+    true
+}
+
+/// Compares with what was accepted.
+fn checked(papers: &[Asked], answers: &[Vec<Option<Answer>>]) -> Outcome {
+    let mut outcome = Outcome::Finished;
+    for (of, answers) in papers.iter().zip(answers) {
+        match check(&of.paper, answers) {
+            Ok(found) => {
+                found.listed.iter().for_each(|line| screen::print(&format!("{}: {line}\n", of.paper.name)));
+                found.failed.iter().for_each(|line| screen::report(&format!("{}: {line}\n", of.paper.name)));
+                let (compared, failed) = (found.compared, found.failed.len());
+                screen::print(&format!(
+                    "{}: {compared} values and verdicts compared, {failed} have changed by more than their errors\n",
+                    of.paper.name
+                ));
+                if failed > 0 {
+                    outcome = Outcome::Incomplete;
+                }
+            }
+            Err(error) => {
+                screen::report(&format!("error: {error}\n"));
+                return Outcome::Rejected;
+            }
+        }
+    }
+    outcome
+}

@@ -1,0 +1,48 @@
+//! Values as they are shown.
+
+/// A value with its error, e.g. `-0.400335 ± 2e-6`: the error rounded up to one digit, the value to the place of it, and to
+/// ten digits at most.
+pub fn with_error(value: f64, error: f64) -> String {
+    if !(value.is_finite() && error.is_finite()) {
+        return format!("{value:.6e} ± {error:.0e}");
+    }
+    let place = |x: f64| x.abs().log10().floor() as i32;
+    let size = place(value.abs().max(error).max(f64::MIN_POSITIVE));
+    let mut last = if error > 0.0 { place(error) } else { size - 9 };
+    let scaled = error / 10f64.powi(last);
+    let mut digit = (scaled - 1e-9).ceil();
+    if digit >= 10.0 {
+        (digit, last) = (1.0, last + 1);
+    }
+    let last_shown = last.max(size - 9);
+    let number = if value == 0.0 {
+        "0".to_owned()
+    } else if (-4..7).contains(&size) {
+        format!("{value:.*}", (-last_shown).max(0) as usize)
+    } else {
+        format!("{value:.*e}", (size - last_shown).max(0) as usize)
+    };
+    if error > 0.0 { format!("{number} ± {digit}e{last}") } else { number }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_error;
+
+    #[test]
+    fn a_value_ends_at_the_place_of_its_error() {
+        for (value, error, text) in [
+            (-0.400_335_003, 1.35e-6, "-0.400335 ± 2e-6"),
+            (-0.400_335_003, 9.6e-4, "-0.400 ± 1e-3"),
+            (123.456, 0.5, "123.5 ± 5e-1"),
+            (123.456, 40.0, "123 ± 4e1"),
+            (1.5e9, 2e6, "1.500e9 ± 2e6"),
+            (-2.4e-6, 3e-9, "-2.400e-6 ± 3e-9"),
+            (4.0, 0.0, "4.000000000"),
+            (0.0, 2e-7, "0 ± 2e-7"),
+            (3.2e-5, 1e-3, "0.000 ± 1e-3"),
+        ] {
+            assert_eq!(with_error(value, error), text);
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! `--check`: the values of a paper against those that were accepted.
+
+use crate::answer::Answer;
+use crate::described::Described;
+use crate::need::of_paper;
+use crate::rule::Ruled;
+use crate::term::Answers;
+use crate::verdict::judged;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Relative change of a value that is listed.
+const LISTED: f64 = 1e-9;
+/// Factor by which a stated error may grow.
+const GROWN: f64 = 10.0;
+/// Error over its value below which its growth is rounding.
+const SMALL: f64 = 1e-9;
+
+/// What was accepted of a paper.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Expected {
+    /// Verdicts by item and number of the claim.
+    #[serde(default)]
+    verdicts: BTreeMap<String, String>,
+    /// Values with their errors by run and quantity; an error that is not known is -1.
+    #[serde(default)]
+    values: BTreeMap<String, [f64; 2]>,
+}
+
+/// What a check found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checked {
+    /// Values and verdicts that were compared.
+    pub compared: usize,
+    /// What has changed by no more than its error.
+    pub listed: Vec<String>,
+    /// What has changed by more, or is gone.
+    pub failed: Vec<String>,
+}
+
+/// There is nothing to compare with.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{paper} has no expected.toml that can be read{why}: `flexion reproduce FOLDER --accept` writes it")]
+pub struct CheckError {
+    paper: String,
+    why: String,
+}
+
+/// The answers of an item by the names of its runs.
+pub fn of_item<'a>(
+    id: &str,
+    item: &crate::described::Item,
+    numbers: &BTreeMap<(String, String), usize>,
+    answers: &'a [Option<Answer>],
+) -> Answers<'a> {
+    let runs = crate::need::runs(item).into_iter();
+    runs.map(|run| {
+        let number = numbers.get(&(id.to_owned(), run.name.clone()));
+        let answer = number.and_then(|number| answers.get(*number)).and_then(Option::as_ref);
+        (run.name, (answer, run.seconds))
+    })
+    .collect()
+}
+
+fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
+    let (needs, numbers) = of_paper(described);
+    let mut out = Expected::default();
+    for (need, answer) in needs.iter().zip(answers) {
+        let Some(answer) = answer else { continue };
+        let run = format!("{} {}", need.run.key.case, need.run.key.set.join(" "));
+        let against = need.run.key.against.as_ref().map(|against| format!(" against {}", against.join(" ")));
+        let run = format!("{}{}", run.trim_end(), against.unwrap_or_default());
+        for (quantity, value) in &answer.values {
+            let Ok(value) = value else { continue };
+            if !value.varies {
+                let asks = match &need.run.key.asks {
+                    crate::need::Asks::Run => String::new(),
+                    crate::need::Asks::Modes(asks) | crate::need::Asks::Energy(asks) => format!(" {asks}"),
+                };
+                let name = format!("{run}{asks} | {quantity}");
+                out.values.insert(name, [value.value, value.error.unwrap_or(-1.0)]);
+            }
+        }
+    }
+    for (id, item) in &described.items {
+        let answers = of_item(id, item, &numbers, answers);
+        for (i, claim) in item.claims.iter().enumerate() {
+            let verdict = judged(claim, &answers);
+            if !matches!(verdict.ruled, Ruled::NotRun(_)) {
+                out.verdicts.insert(format!("{id}.{}", i + 1), verdict.word().to_owned());
+            }
+        }
+    }
+    out
+}
+
+/// The text of `expected.toml` for these answers; what was not run is kept as it stands.
+pub fn expected(described: &Described, answers: &[Option<Answer>]) -> String {
+    let mut out: Expected =
+        described.expected.as_deref().and_then(|text| toml::from_str(text).ok()).unwrap_or_default();
+    let now = found(described, answers);
+    if answers.iter().all(Option::is_some) {
+        out = now;
+    } else {
+        out.values.extend(now.values);
+        out.verdicts.extend(now.verdicts);
+    }
+    let body = toml::to_string(&out).unwrap_or_default();
+    format!(
+        "# Values with their errors, and verdicts, for `flexion reproduce --check`; written by `flexion reproduce FOLDER --accept`.\n{body}"
+    )
+}
+
+/// Compares answers with those that were accepted; what was not run is not compared.
+///
+/// # Errors
+/// [`CheckError`]
+pub fn check(described: &Described, answers: &[Option<Answer>]) -> Result<Checked, CheckError> {
+    let error = |why: String| CheckError { paper: described.name.clone(), why };
+    let text = described.expected.as_deref().ok_or_else(|| error(String::new()))?;
+    let expected: Expected =
+        toml::from_str(text).map_err(|problem| error(format!(" ({})", problem.to_string().trim_end())))?;
+    let now = found(described, answers);
+    let mut out = Checked::default();
+    let mut compare = |name: &str, before: Option<&[f64; 2]>, after: [f64; 2]| {
+        out.compared += 1;
+        let Some([value, error]) = before else {
+            out.failed.push(format!("{name}: {} is new; `--accept` takes it up", after[0]));
+            return;
+        };
+        let change = (after[0] - value).abs();
+        let allowed = error.max(0.0) + after[1].max(0.0);
+        let relative = change / value.abs().max(f64::MIN_POSITIVE);
+        if change > allowed.max(LISTED * value.abs()) {
+            out.failed.push(format!("{name}: {value} ± {error} has become {} ± {}", after[0], after[1]));
+        } else if after[1] > GROWN * error.max(SMALL * value.abs()) || (*error >= 0.0 && after[1] < 0.0) {
+            out.failed.push(format!("{name}: its error {error} has become {}", after[1]));
+        } else if relative > LISTED {
+            out.listed.push(format!("{name}: {value} has become {}, within the error", after[0]));
+        }
+    };
+    for (name, value) in &now.values {
+        compare(name, expected.values.get(name), *value);
+    }
+    for (name, verdict) in &now.verdicts {
+        out.compared += 1;
+        match expected.verdicts.get(name) {
+            Some(before) if before == verdict => {}
+            Some(before) => out.failed.push(format!("claim {name}: {before} has become {verdict}")),
+            None => out.failed.push(format!("claim {name}: {verdict} is new; `--accept` takes it up")),
+        }
+    }
+    if answers.iter().all(Option::is_some) {
+        let gone = expected.values.keys().filter(|name| !now.values.contains_key(*name));
+        out.failed.extend(gone.map(|name| format!("{name} is gone")));
+    }
+    Ok(out)
+}

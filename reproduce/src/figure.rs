@@ -1,0 +1,166 @@
+//! Figures: the curves of runs over time, or quantities over what is varied, with the bands of their errors.
+
+use crate::answer::Curve;
+use crate::described::{As, Item, OfRun, Plot};
+use crate::need::{Named, plain, runs};
+use crate::term::{Answers, Number, answer, of_run};
+use flexion_results::plot::{Axis, Figure, Marker, Panel, Series, Words};
+
+/// The figure of an item, where it has one.
+pub fn figure(item: &Item, answers: &Answers<'_>) -> Option<Figure> {
+    let panels: Vec<Panel> = item.plots.iter().map(|plot| panel(item, plot, answers)).collect();
+    let drawn = panels.iter().any(|panel| !panel.series.is_empty());
+    drawn.then(|| Figure {
+        title: None,
+        columns: if panels.len() > 1 { 2 } else { 1 },
+        panels,
+        share_x: false,
+    })
+}
+
+/// A curve of an item, for a table: the run, the column, its values.
+pub struct Drawn<'a> {
+    /// Name of the run.
+    pub run: String,
+    /// Name of the column.
+    pub column: &'a str,
+    /// The column.
+    pub curve: &'a Curve,
+}
+
+/// The curves over time that an item draws.
+pub fn curves<'a>(item: &'a Item, answers: &Answers<'a>) -> Vec<Drawn<'a>> {
+    let mut out: Vec<Drawn<'a>> = Vec::new();
+    for plot in item.plots.iter().filter(|plot| plot.x.is_none()) {
+        for run in of_plot(item, plot) {
+            let curve = answer(answers, &run.name).ok().and_then(|answer| answer.curve(&plot.y).ok());
+            let twice = out.iter().any(|drawn| drawn.run == run.name && drawn.column == plot.y);
+            out.extend(curve.filter(|_| !twice).map(|curve| Drawn { run: run.name, column: &plot.y, curve }));
+        }
+    }
+    out
+}
+
+/// The values over what is varied that an item draws: the run, what it is of, the value.
+pub fn points(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Vec<(Named, Result<Number, String>)> {
+    let to = plot.to.as_ref().filter(|_| plot.compared.is_some()).map(plain);
+    let value = |run: Named| {
+        let of = OfRun {
+            run: run.name.clone(),
+            quantity: plot.y.clone(),
+            to: to.clone(),
+            compared: plot.compared,
+        };
+        let number = of_run(&of, answers).map_err(|missing| format!("{missing:?}"));
+        (run, number)
+    };
+    of_plot(item, plot).into_iter().map(value).collect()
+}
+
+fn of_plot(item: &Item, plot: &Plot) -> Vec<Named> {
+    let wanted = |run: &Named| plot.runs.as_ref().is_none_or(|names| names.contains(&run.name));
+    let mut all: Vec<Named> = runs(item).into_iter().filter(wanted).collect();
+    if let Some(names) = &plot.runs {
+        all.sort_by_key(|run| names.iter().position(|name| *name == run.name));
+    }
+    all
+}
+
+fn panel(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
+    let mut panel = match &plot.x {
+        None => over_time(item, plot, answers),
+        Some(x) => over(item, plot, x, answers),
+    };
+    if let Some(label) = &plot.label {
+        panel.y.quantity.clone_from(label);
+    }
+    if plot.log {
+        panel.y.scale = flexion_results::plot::Scale::Logarithmic;
+    }
+    panel.words.extend(plot.title.as_ref().map(|title| Words {
+        text: title.clone(),
+        outside: true,
+        ..Words::default()
+    }));
+    panel
+}
+
+fn over_time(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
+    let mut panel = Panel { x: Axis::time(), ..Panel::default() };
+    let to = plot.to.as_ref().and_then(|to| to.as_float().or(to.as_integer().map(|to| to as f64)));
+    let (from, to) = (plot.from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY));
+    for run in of_plot(item, plot) {
+        let Ok(curve) = answer(answers, &run.name)
+            .and_then(|answer| answer.curve(&plot.y).map_err(crate::term::Missing::Because))
+        else {
+            continue;
+        };
+        panel.y = Axis::of_column(&plot.y, &curve.unit);
+        let inside: Vec<usize> = (0..curve.t.len()).filter(|i| (from..=to).contains(&curve.t[*i])).collect();
+        let points = inside.iter().map(|i| (curve.t[*i], curve.y[*i])).collect();
+        // A run without an error has no band.
+        let band = inside.iter().map(|i| curve.off.get(*i).copied().unwrap_or(f64::NAN)).collect();
+        let number = panel.series.len();
+        panel.series.push(Series { band, ..Series::line(Some(&run.name), points).numbered(number) });
+    }
+    panel
+}
+
+fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
+    let mut panel = Panel { x: Axis::new(x, ""), ..Panel::default() };
+    let mut groups: Vec<(String, Vec<(f64, f64)>, Vec<f64>)> = Vec::new();
+    let mut unit = String::new();
+    for (run, number) in points(item, plot, answers) {
+        let Some(at) = run.of.get(x).and_then(value_of) else { continue };
+        let others: Vec<String> =
+            run.of.iter().filter(|(key, _)| *key != x).map(|(_, value)| plain(value)).collect();
+        // What is not varied stands in the name of the run.
+        let name = series_name(&run, x, &others);
+        let Ok(number) = number else { continue };
+        let factor = if number.part { 100.0 } else { 1.0 };
+        unit = if number.part { "%".to_owned() } else { crate::shown::unit_shown(&number.unit) };
+        let group = match groups.iter().position(|(group, ..)| *group == name) {
+            Some(group) => group,
+            None => {
+                groups.push((name, Vec::new(), Vec::new()));
+                groups.len() - 1
+            }
+        };
+        groups[group].1.push((at, factor * number.value));
+        groups[group].2.push(number.error.map_or(f64::NAN, |error| factor * error));
+    }
+    let quantity = match plot.compared {
+        Some(As::RelativeDifference | As::CurveDifference) => format!("{}, difference", plot.y),
+        Some(As::Ratio) => format!("{}, ratio", plot.y),
+        _ => plot.y.clone(),
+    };
+    panel.y = Axis::new(quantity, unit);
+    let alone = groups.len() == 1;
+    for (number, (name, points, band)) in groups.into_iter().enumerate() {
+        let name = (!alone).then_some(name);
+        let line = Series::line(name.as_deref(), points).numbered(number);
+        panel.series.push(Series { band, marker: Some(Marker::Circle), ..line });
+    }
+    panel
+}
+
+/// The name of a run without the value of `x`.
+fn series_name(run: &Named, x: &str, others: &[String]) -> String {
+    let value = run.of.get(x).map(plain).unwrap_or_default();
+    let mut name = run.name.clone();
+    if let Some(at) = name.rfind(&value).filter(|_| !value.is_empty()) {
+        name.replace_range(at..at + value.len(), "");
+    }
+    let name =
+        name.trim_matches([' ', ',', '=', 'γ', ':']).trim_end_matches(x).trim_matches([' ', ',', '=', ':']);
+    if name.is_empty() { others.join(", ") } else { name.to_owned() }
+}
+
+fn value_of(value: &toml::Value) -> Option<f64> {
+    match value {
+        toml::Value::Integer(number) => Some(*number as f64),
+        toml::Value::Float(number) => Some(*number),
+        toml::Value::String(text) => text.split_whitespace().next()?.parse().ok(),
+        _ => None,
+    }
+}

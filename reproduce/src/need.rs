@@ -1,0 +1,261 @@
+//! What has to be computed for a paper: its runs, each with all that its items ask of it.
+
+use crate::described::{As, Described, Item, OfEnergy, OfModes, OfRun, Rule, Template, Term};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A run, by all that its numbers depend on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Key {
+    /// Name of the case.
+    pub case: String,
+    /// Changes of it.
+    pub set: Vec<String>,
+    /// Changes that make the run that it is compared with; without, its companion with a finer mesh.
+    pub against: Option<Vec<String>>,
+    /// Frequencies in place of a run in time.
+    pub asks: Asks,
+}
+
+/// What is computed of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Asks {
+    /// A run in time.
+    Run,
+    /// Frequencies in steady rotation.
+    Modes(String),
+    /// Frequencies by a strain energy.
+    Energy(String),
+}
+
+/// A run of an item.
+#[derive(Clone, Debug)]
+pub struct Named {
+    /// Its name in the item.
+    pub name: String,
+    /// What it is.
+    pub key: Key,
+    /// The values of `each` that it is of.
+    pub of: BTreeMap<String, toml::Value>,
+    /// How long it takes, where that is long \[s\].
+    pub seconds: Option<f64>,
+    /// Its frequencies.
+    pub modes: Option<OfModes>,
+    /// Its strain energy.
+    pub energy: Option<OfEnergy>,
+}
+
+/// What is needed of a run.
+#[derive(Clone, Debug)]
+pub struct Need {
+    /// The run.
+    pub run: Named,
+    /// Its quantities.
+    pub quantities: BTreeSet<String>,
+    /// Its columns over time.
+    pub columns: BTreeSet<String>,
+}
+
+/// All that these items of a paper need, each run once; its number for every run of every item.
+pub fn needs<'a>(
+    items: impl Iterator<Item = &'a (String, Item)>,
+) -> (Vec<Need>, BTreeMap<(String, String), usize>) {
+    let mut needs: Vec<Need> = Vec::new();
+    let mut numbers = BTreeMap::new();
+    for (id, item) in items {
+        let (quantities, columns) = asked(item);
+        for run in runs(item) {
+            let of = |asked: &BTreeSet<(String, String)>| -> BTreeSet<String> {
+                asked.iter().filter(|(name, _)| *name == run.name).map(|(_, what)| what.clone()).collect()
+            };
+            let (quantities, columns) = (of(&quantities), of(&columns));
+            let number = needs.iter().position(|need| need.run.key == run.key);
+            let number = number.unwrap_or_else(|| {
+                needs.push(Need { run: run.clone(), quantities: BTreeSet::new(), columns: BTreeSet::new() });
+                needs.len() - 1
+            });
+            let need = &mut needs[number];
+            need.quantities.extend(quantities);
+            need.columns.extend(columns);
+            need.run.seconds = need.run.seconds.or(run.seconds);
+            numbers.insert((id.clone(), run.name), number);
+        }
+    }
+    (needs, numbers)
+}
+
+/// The runs of an item.
+pub fn runs(item: &Item) -> Vec<Named> {
+    item.runs.iter().flat_map(expanded).collect()
+}
+
+/// The names of the runs that are meant: all where none are named.
+pub fn named(item: &Item, names: Option<&Vec<String>>) -> Vec<String> {
+    names.cloned().unwrap_or_else(|| runs(item).into_iter().map(|run| run.name).collect())
+}
+
+fn expanded(template: &Template) -> Vec<Named> {
+    let mut all: Vec<BTreeMap<String, toml::Value>> = vec![BTreeMap::new()];
+    for (key, values) in &template.each {
+        all = all
+            .into_iter()
+            .flat_map(|of| {
+                values.iter().map(move |value| {
+                    let mut of = of.clone();
+                    of.insert(key.clone(), value.clone());
+                    of
+                })
+            })
+            .collect();
+    }
+    all.into_iter()
+        .map(|of| {
+            let fill = |text: &String| filled(text, &of);
+            let fill_value = |value: &toml::Value| match value {
+                toml::Value::String(text) => toml::Value::String(fill(text)),
+                other => other.clone(),
+            };
+            let mut modes = template.modes.clone();
+            if let Some(modes) = &mut modes {
+                modes.speed = fill_value(&modes.speed);
+            }
+            let mut energy = template.strain_energy.clone();
+            if let Some(energy) = &mut energy {
+                energy.speed = fill_value(&energy.speed);
+            }
+            let asks = match (&modes, &energy) {
+                (Some(modes), _) => Asks::Modes(format!("{modes:?}")),
+                (_, Some(energy)) => Asks::Energy(format!("{energy:?}")),
+                _ => Asks::Run,
+            };
+            let key = Key {
+                case: fill(&template.case),
+                set: template.set.iter().map(fill).collect(),
+                against: template.against.as_ref().map(|against| against.iter().map(fill).collect()),
+                asks,
+            };
+            Named { name: fill(&template.name), key, seconds: template.seconds, modes, energy, of }
+        })
+        .collect()
+}
+
+/// A text with `{key}` replaced by its value.
+fn filled(text: &str, of: &BTreeMap<String, toml::Value>) -> String {
+    of.iter().fold(text.to_owned(), |text, (key, value)| text.replace(&format!("{{{key}}}"), &plain(value)))
+}
+
+/// A value as it stands in a name.
+pub fn plain(value: &toml::Value) -> String {
+    match value {
+        toml::Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}
+
+type Asked = BTreeSet<(String, String)>;
+
+/// The quantities and the columns that an item asks of its runs.
+fn asked(item: &Item) -> (Asked, Asked) {
+    let (mut quantities, mut columns) = (Asked::new(), Asked::new());
+    let mut ask = |run: &str, to: Option<&String>, quantity: &str, compared: Option<As>| {
+        let curve = compared == Some(As::CurveDifference);
+        let what = if curve { quantity.split('@').next().unwrap_or(quantity) } else { quantity };
+        for run in std::iter::once(run).chain(to.map(String::as_str)) {
+            let list = if curve { &mut columns } else { &mut quantities };
+            list.insert((run.to_owned(), what.to_owned()));
+        }
+    };
+    for plot in &item.plots {
+        for run in named(item, plot.runs.as_ref()) {
+            match &plot.x {
+                Some(_) => {
+                    let to = plot.to.as_ref().map(plain);
+                    ask(&run, to.as_ref(), &plot.y, plot.compared);
+                }
+                None => ask(&run, None, &plot.y, Some(As::CurveDifference)),
+            }
+        }
+    }
+    if let Some(table) = &item.table {
+        for run in named(item, table.runs.as_ref()) {
+            for column in &table.columns {
+                ask(&run, column.to.as_ref(), &column.quantity, column.compared);
+            }
+        }
+    }
+    for claim in &item.claims {
+        of_rule(&claim.rule, &mut |of: &OfRun| ask(&of.run, of.to.as_ref(), &of.quantity, of.compared));
+    }
+    (quantities, columns)
+}
+
+/// Shows all terms of a rule.
+fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
+    let mut term = |term: &Term| {
+        if let Term::Of(of) = term {
+            see(of)
+        }
+    };
+    match rule {
+        Rule::Less { left, right } => {
+            term(left);
+            term(right);
+        }
+        Rule::Within { of, .. } => term(of),
+        Rule::Agree { .. } | Rule::Grows { .. } | Rule::Falls { .. } => {
+            crate::rule::terms(rule).iter().for_each(see);
+        }
+        Rule::EndsEarly { .. } | Rule::Finishes { .. } | Rule::Lost { .. } => {}
+        Rule::All { rules } => rules.iter().for_each(|rule| of_rule(rule, see)),
+    }
+}
+
+/// The runs that a rule names besides those of its terms.
+fn named_by(rule: &Rule) -> Vec<&String> {
+    match rule {
+        Rule::EndsEarly { runs } | Rule::Finishes { runs } => runs.iter().collect(),
+        Rule::All { rules } => rules.iter().flat_map(named_by).collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// What is wrong with an item by itself.
+pub fn problems(item: &Item) -> Vec<String> {
+    let mut out = Vec::new();
+    let names: Vec<String> = runs(item).into_iter().map(|run| run.name).collect();
+    for (i, name) in names.iter().enumerate() {
+        if names[..i].contains(name) {
+            out.push(format!("two runs are called `{name}`: name the values of `each` in `name`"));
+        }
+    }
+    let (quantities, columns) = asked(item);
+    let ends = item.claims.iter().flat_map(|claim| named_by(&claim.rule));
+    let mut unknown: Vec<&String> =
+        quantities.iter().chain(&columns).map(|(run, _)| run).chain(ends).collect();
+    unknown.sort();
+    unknown.dedup();
+    for run in unknown.into_iter().filter(|run| !names.contains(run)) {
+        let nearest = flexion_results::nearest(run, names.iter().map(String::as_str));
+        let nearest = nearest.map_or(String::new(), |name| format!("; perhaps `{name}`"));
+        out.push(format!("no run is called `{run}`{nearest}"));
+    }
+    for of in item.plots.iter().filter_map(|plot| plot.x.as_ref()) {
+        if !item.runs.iter().any(|run| run.each.contains_key(of)) {
+            out.push(format!("a plot over `{of}` needs runs with `each = {{ {of} = [...] }}`"));
+        }
+    }
+    let both = |to: bool, compared: bool, what: &str| {
+        (to != compared).then(|| format!("{what}: `to` and `as` belong together"))
+    };
+    for column in item.table.iter().flat_map(|table| &table.columns) {
+        out.extend(both(column.to.is_some(), column.compared.is_some(), &column.title));
+    }
+    for claim in &item.claims {
+        of_rule(&claim.rule, &mut |of| out.extend(both(of.to.is_some(), of.compared.is_some(), &claim.text)));
+    }
+    out
+}
+
+/// All runs of a paper.
+pub fn of_paper(described: &Described) -> (Vec<Need>, BTreeMap<(String, String), usize>) {
+    needs(described.items.iter())
+}

@@ -1,0 +1,145 @@
+//! Reading a paper: from the program, or from a folder.
+
+use crate::described::{Described, Item, ItemKind, Paper};
+use include_dir::{Dir, include_dir};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// The papers that are built into the program.
+static PAPERS: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../papers");
+
+/// Why a paper cannot be read: all that is wrong with its files.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", .0.join("\n"))]
+pub struct PaperError(pub Vec<String>);
+
+/// The files of a paper: their names within its folder, and their texts.
+type Files = BTreeMap<String, String>;
+
+/// The names of the papers that are built into the program.
+pub fn built_in_names() -> Vec<String> {
+    PAPERS.dirs().map(|dir| dir.path().display().to_string()).collect()
+}
+
+/// A paper that is built into the program.
+///
+/// # Errors
+/// A name that is none, and whatever is wrong with its files.
+pub fn built_in(name: &str) -> Result<Described, PaperError> {
+    let dir = PAPERS.get_dir(name).ok_or_else(|| {
+        PaperError(vec![format!("there is no paper `{name}`; there are {}", built_in_names().join(", "))])
+    })?;
+    let mut files = Files::new();
+    let mut open = vec![dir];
+    while let Some(dir) = open.pop() {
+        open.extend(dir.dirs());
+        for file in dir.files() {
+            let path = file.path().strip_prefix(name).unwrap_or(file.path());
+            if let Some(text) = file.contents_utf8() {
+                files.insert(path.to_string_lossy().replace('\\', "/"), text.to_owned());
+            }
+        }
+    }
+    described(name, &format!("papers/{name}"), &files)
+}
+
+/// A paper in a folder.
+///
+/// # Errors
+/// Whatever is wrong with its files.
+pub fn from_folder(folder: &Path) -> Result<Described, PaperError> {
+    let mut files = Files::new();
+    let mut problems = Vec::new();
+    for (within, prefix) in [(folder.to_owned(), ""), (folder.join("cases"), "cases/")] {
+        let entries = match std::fs::read_dir(&within) {
+            Ok(entries) => entries,
+            Err(error) => {
+                problems.push(format!("cannot read {}: {error}", within.display()));
+                continue;
+            }
+        };
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let wanted = path.extension().is_some_and(|end| end == "toml" || end == "svg");
+            let Some(name) = path.file_name().filter(|_| wanted && path.is_file()) else { continue };
+            match std::fs::read_to_string(&path) {
+                Ok(text) => drop(files.insert(format!("{prefix}{}", name.to_string_lossy()), text)),
+                Err(error) => problems.push(format!("cannot read {}: {error}", path.display())),
+            }
+        }
+    }
+    if !problems.is_empty() {
+        return Err(PaperError(problems));
+    }
+    let absolute = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+    let name = absolute.file_name().map_or("paper".to_owned(), |name| name.to_string_lossy().into_owned());
+    described(&name, &folder.display().to_string(), &files)
+}
+
+/// The paper of these files; `place` names its folder in messages.
+fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperError> {
+    let mut problems = Vec::new();
+    let Some(paper) = parsed::<Paper>(place, "paper.toml", files, &mut problems) else {
+        return Err(PaperError(problems));
+    };
+    let mut items = Vec::new();
+    for item in &paper.items {
+        let file = format!("{item}.toml");
+        let Some(read) = parsed::<Item>(place, &file, files, &mut problems) else { continue };
+        let cases = read.runs.iter().map(|run| ("case", format!("cases/{}.toml", run.case)));
+        let drawing = read.drawing.iter().map(|file| ("drawing", file.clone()));
+        for (what, name) in cases.chain(drawing).filter(|(_, name)| !files.contains_key(name)) {
+            problems.push(format!("{place}/{file}: its {what} {place}/{name} does not exist"));
+        }
+        if read.kind == ItemKind::Drawing && read.drawing.is_none() {
+            problems.push(format!("{place}/{file}: a drawing has `drawing`, the name of its file"));
+        }
+        problems.extend(
+            crate::need::problems(&read).into_iter().map(|problem| format!("{place}/{file}: {problem}")),
+        );
+        items.push((item.clone(), read));
+    }
+    let listed = |name: &str| paper.items.iter().any(|item| item == name);
+    for file in files.keys().filter(|file| !file.contains('/')) {
+        let Some(stem) = file.strip_suffix(".toml") else { continue };
+        if !["paper", "expected"].contains(&stem) && !listed(stem) {
+            problems.push(format!("{place}/{file} is no item of {place}/paper.toml: name it in `items`"));
+        }
+    }
+    if !problems.is_empty() {
+        return Err(PaperError(problems));
+    }
+    let of = |prefix: &str, end: &str| {
+        let names = files.iter().filter_map(|(file, text)| {
+            let name = file.strip_prefix(prefix)?.strip_suffix(end)?;
+            (!name.contains('/')).then(|| (name.to_owned(), text.clone()))
+        });
+        names.collect::<BTreeMap<String, String>>()
+    };
+    Ok(Described {
+        name: name.to_owned(),
+        items,
+        cases: of("cases/", ".toml"),
+        drawings: of("", ".svg").into_iter().map(|(name, text)| (format!("{name}.svg"), text)).collect(),
+        expected: files.get("expected.toml").cloned(),
+        paper,
+    })
+}
+
+fn parsed<T: serde::de::DeserializeOwned>(
+    place: &str,
+    file: &str,
+    files: &Files,
+    problems: &mut Vec<String>,
+) -> Option<T> {
+    let Some(text) = files.get(file) else {
+        problems.push(format!("{place}/{file} does not exist"));
+        return None;
+    };
+    match toml::from_str(text) {
+        Ok(read) => Some(read),
+        Err(error) => {
+            problems.push(format!("{place}/{file}: {}", error.to_string().trim_end()));
+            None
+        }
+    }
+}

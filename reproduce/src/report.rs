@@ -1,0 +1,439 @@
+//! The report: one page, and tables as CSV.
+
+use crate::answer::Answer;
+use crate::check::of_item;
+use crate::described::{As, Described, Item, ItemKind};
+use crate::figure::{curves, figure, points};
+use crate::html::Html;
+use crate::need::{Named, named, of_paper, runs};
+use crate::rule::Ruled;
+use crate::shown::{plain, shown};
+use crate::table::filled;
+use crate::term::{Answers, Missing};
+use crate::verdict::{Verdict, judged};
+use flexion_results::{OutputError, VERSION, write_file};
+use std::path::{Path, PathBuf};
+
+const PAGE: &str = include_str!("report.html");
+
+/// A paper with its answers.
+pub struct Reproduced<'a> {
+    /// The paper.
+    pub paper: &'a Described,
+    /// The answers of its runs; `None` where one was not asked for.
+    pub answers: &'a [Option<Answer>],
+    /// The items that are reported.
+    pub items: Vec<String>,
+}
+
+impl Reproduced<'_> {
+    fn each(&self) -> impl Iterator<Item = (&str, &Item, Answers<'_>)> {
+        let numbers = of_paper(self.paper).1;
+        let items = self.paper.items.iter().filter(|(id, _)| self.items.contains(id));
+        items.map(move |(id, item)| (id.as_str(), item, of_item(id, item, &numbers, self.answers)))
+    }
+
+    /// The verdicts on all claims, by item.
+    pub fn verdicts(&self) -> Vec<(String, Verdict)> {
+        let of = |(id, item, answers): (&str, &Item, Answers<'_>)| {
+            item.claims.iter().map(|claim| (id.to_owned(), judged(claim, &answers))).collect::<Vec<_>>()
+        };
+        self.each().flat_map(of).collect()
+    }
+}
+
+/// Writes `report.html` and the tables, and returns the files.
+///
+/// # Errors
+/// [`OutputError`]
+pub fn write(papers: &[Reproduced<'_>], folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
+    let mut files = Vec::new();
+    let mut put = |name: &str, bytes: &[u8]| {
+        let path = folder.join(name);
+        write_file(&path, bytes)?;
+        files.push(path);
+        Ok::<(), OutputError>(())
+    };
+    put("claims.csv", claims_table(papers).as_bytes())?;
+    for paper in papers {
+        for (id, item, answers) in paper.each() {
+            for (name, text) in tables(item, &answers) {
+                put(&format!("{}_{id}{name}.csv", paper.paper.name), text.as_bytes())?;
+            }
+        }
+    }
+    put("report.html", page(papers).as_bytes())?;
+    Ok(files)
+}
+
+fn csv(rows: impl Iterator<Item = Vec<String>>) -> String {
+    let mut out = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        // Memory does not refuse, and rows may differ in length only by a fault of ours.
+        let _ = out.write_record(&row);
+    }
+    out.into_inner().ok().and_then(|bytes| String::from_utf8(bytes).ok()).unwrap_or_default()
+}
+
+fn claims_table(papers: &[Reproduced<'_>]) -> String {
+    let head = ["paper", "item", "claim", "place", "printed", "verdict", "ours"].map(String::from).to_vec();
+    let mut rows = vec![head];
+    for paper in papers {
+        for (id, item, answers) in paper.each() {
+            for claim in &item.claims {
+                let verdict = judged(claim, &answers);
+                rows.push(vec![
+                    paper.paper.name.clone(),
+                    id.to_owned(),
+                    claim.text.clone(),
+                    claim.place.clone().unwrap_or_default(),
+                    claim.value.clone().unwrap_or_default(),
+                    verdict.name().to_owned(),
+                    verdict.sentence,
+                ]);
+            }
+        }
+    }
+    csv(rows.into_iter())
+}
+
+/// The tables of an item: what is added to its name, and the text.
+fn tables(item: &Item, answers: &Answers<'_>) -> Vec<(String, String)> {
+    let mut out = Vec::new();
+    let number = |number: &f64| format!("{number:?}");
+    let known = |error: Option<f64>| error.map(|error| number(&error)).unwrap_or_default();
+    let drawn = curves(item, answers);
+    if !drawn.is_empty() {
+        let head = ["run", "column", "unit", "time [s]", "value", "±"].map(String::from).to_vec();
+        let rows = drawn.iter().flat_map(|drawn| {
+            let curve = drawn.curve;
+            (0..curve.t.len()).map(move |i| {
+                let off = curve.off.get(i).copied().filter(|off| off.is_finite());
+                let unit = curve.unit.clone();
+                vec![
+                    drawn.run.clone(),
+                    drawn.column.to_owned(),
+                    unit,
+                    number(&curve.t[i]),
+                    number(&curve.y[i]),
+                    known(off),
+                ]
+            })
+        });
+        out.push(("_curves".to_owned(), csv(std::iter::once(head).chain(rows))));
+    }
+    let over: Vec<Vec<String>> = item
+        .plots
+        .iter()
+        .filter_map(|plot| Some((plot, plot.x.as_ref()?)))
+        .flat_map(|(plot, x)| {
+            points(item, plot, answers).into_iter().map(move |(run, found)| {
+                let at = run.of.get(x).map(crate::need::plain).unwrap_or_default();
+                let (value, error, unit) = found.map_or_else(
+                    |_| Default::default(),
+                    |found| (number(&found.value), known(found.error), found.unit),
+                );
+                vec![run.name, x.clone(), at, plot.y.clone(), value, error, unit]
+            })
+        })
+        .collect();
+    if !over.is_empty() {
+        let head = ["run", "over", "at", "quantity", "value", "±", "unit"].map(String::from).to_vec();
+        out.push(("_points".to_owned(), csv(std::iter::once(head).chain(over))));
+    }
+    if let Some(table) = filled(item, answers) {
+        let titles = table.titles.iter().flat_map(|title| [title.clone(), format!("± {title}")]);
+        let head: Vec<String> = std::iter::once("run".to_owned()).chain(titles).collect();
+        let rows = table.rows.iter().map(|(run, cells)| {
+            let cells = cells.iter().flat_map(|cell| match cell {
+                Ok(of) => {
+                    let factor = if of.part { 100.0 } else { 1.0 };
+                    [number(&(factor * of.value)), known(of.error.map(|error| factor * error))]
+                }
+                Err(_) => [String::new(), String::new()],
+            });
+            std::iter::once(run.clone()).chain(cells).collect()
+        });
+        out.push(("_table".to_owned(), csv(std::iter::once(head).chain(rows))));
+    }
+    out
+}
+
+fn page(papers: &[Reproduced<'_>]) -> String {
+    let mut out = Html::default();
+    contents(papers, &mut out);
+    for paper in papers {
+        let Described { name, paper: of, .. } = paper.paper;
+        out.raw("<section class=paper>")
+            .element(&format!("h2 id=\"{}\"", anchor(name)), &format!("{name}. {}", of.title));
+        out.raw("<p class=source>").text(&format!("{}. {}.", of.authors, of.source));
+        if let Some(doi) = &of.doi {
+            out.raw(" ").element(
+                &format!("a href=\"https://doi.org/{}\"", crate::html::escaped(doi)),
+                &format!("doi:{doi}"),
+            );
+        }
+        out.raw("</p>").element("p", &of.about);
+        if !of.notes.is_empty() {
+            out.raw("<details><summary>Errata, and what the paper leaves open</summary><ul>");
+            for note in &of.notes {
+                out.element("li", note);
+            }
+            out.raw("</ul></details>");
+        }
+        for (id, item, answers) in paper.each() {
+            item_section(name, id, item, &answers, paper, &mut out);
+        }
+        out.raw("</section>");
+    }
+    PAGE.replace("{{version}}", VERSION).replace("{{body}}", &out.0)
+}
+
+fn anchor(text: &str) -> String {
+    text.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '-' }).collect()
+}
+
+const WORDS: [&str; 5] = ["holds", "fails", "undecided", "lost", "not-run"];
+
+/// What came out, paper by paper, and all claims in one table.
+fn contents(papers: &[Reproduced<'_>], out: &mut Html) {
+    out.raw("<section id=summary><h2>What came out</h2><div class=wide><table class=sortable><thead><tr><th>Paper<th>Holds<th>Does not hold<th>Not decided<th>Lost<th>Not run</tr></thead><tbody>");
+    for paper in papers {
+        let verdicts = paper.verdicts();
+        let Described { name, paper: of, .. } = paper.paper;
+        out.raw("<tr><td>")
+            .element(&format!("a href=\"#{}\"", anchor(name)), &format!("{name}. {}", of.title))
+            .raw("</td>");
+        for word in WORDS {
+            let count = verdicts.iter().filter(|(_, verdict)| verdict.word() == word).count();
+            out.element("td class=number", &count.to_string());
+        }
+        out.raw("</tr>");
+    }
+    out.raw("</tbody></table></div><h3>All claims</h3><div class=wide><table class=sortable><thead><tr><th>Item<th>The paper claims<th>Printed<th>Verdict<th>Ours</tr></thead><tbody>");
+    for paper in papers {
+        for (id, item, answers) in paper.each() {
+            for (i, claim) in item.claims.iter().enumerate() {
+                let verdict = judged(claim, &answers);
+                let name = format!("{} {id}", paper.paper.name);
+                out.raw("<tr><td>")
+                    .element(&format!("a href=\"#{}-{}\"", anchor(&name), i + 1), &name)
+                    .raw("</td>");
+                out.element("td", &claim.text).element("td", claim.value.as_deref().unwrap_or(""));
+                badge(&verdict, "td", out);
+                out.element("td", &verdict.sentence).raw("</tr>");
+            }
+        }
+    }
+    out.raw("</tbody></table></div></section>");
+}
+
+fn badge(verdict: &Verdict, element: &str, out: &mut Html) {
+    out.raw(&format!("<{element}><span class=\"verdict {}\">", verdict.word()))
+        .text(verdict.name())
+        .raw(&format!("</span></{element}>"));
+}
+
+fn item_section(
+    paper: &str,
+    id: &str,
+    item: &Item,
+    answers: &Answers<'_>,
+    of: &Reproduced<'_>,
+    out: &mut Html,
+) {
+    let name = format!("{paper} {id}");
+    let number = id.trim_start_matches(|letter: char| letter.is_alphabetic());
+    let kind = if item.kind == ItemKind::Table { "Table" } else { "Figure" };
+    out.raw(&format!("<article id=\"{}\">", anchor(&name)));
+    out.element("h3", &format!("{paper}, {} {number}: {}", kind.to_lowercase(), item.title));
+    for (what, text) in [("Of the paper: ", &item.survives), ("Chosen: ", &item.chosen)] {
+        if let Some(text) = text {
+            out.raw("<p class=note><strong>").text(what).raw("</strong>").text(text).raw("</p>");
+        }
+    }
+    if let Some(drawing) = item.drawing.as_ref().and_then(|file| of.paper.drawings.get(file)) {
+        out.raw("<figure class=drawing>")
+            .raw(inline(drawing))
+            .element("figcaption", "Our drawing.")
+            .raw("</figure>");
+    }
+    if let Some(figure) = figure(item, answers) {
+        out.raw("<figure class=plot>").raw(&figure.draw().svg());
+        let banded = figure
+            .panels
+            .iter()
+            .flat_map(|panel| &panel.series)
+            .any(|series| series.band.iter().any(|half| half.is_finite()));
+        let caption = if banded {
+            "Bands are the errors of the curves; where none is seen, it is thinner than the line."
+        } else {
+            ""
+        };
+        out.element("figcaption", caption).raw("</figure>");
+    }
+    table(item, answers, &name, out);
+    if !item.claims.is_empty() {
+        out.raw("<div class=claims>");
+        for (i, claim) in item.claims.iter().enumerate() {
+            let verdict = judged(claim, answers);
+            out.raw(&format!("<div class=claim id=\"{}-{}\"><p>", anchor(&name), i + 1));
+            badge(&verdict, "span", out);
+            out.raw(" ").text(&claim.text);
+            let place = [claim.place.clone(), claim.value.as_ref().map(|value| format!("printed: {value}"))];
+            let place: Vec<String> = place.into_iter().flatten().collect();
+            if !place.is_empty() {
+                out.raw(" ").element("span class=place", &format!("({})", place.join("; ")));
+            }
+            out.raw("</p>").element("p class=ours", &verdict.sentence);
+            if let Ruled::Undecided(why) = &verdict.ruled
+                && !verdict.sentence.to_lowercase().contains(&why.to_lowercase())
+            {
+                out.element("p class=note", why);
+            }
+            out.raw("</div>");
+        }
+        out.raw("</div>");
+    }
+    run_details(item, answers, of, &name, out);
+    out.raw("</article>");
+}
+
+/// A drawing without the head of its file.
+fn inline(svg: &str) -> &str {
+    svg.find("<svg").map_or(svg, |start| &svg[start..])
+}
+
+fn table(item: &Item, answers: &Answers<'_>, name: &str, out: &mut Html) {
+    let Some(table) = filled(item, answers) else { return };
+    out.raw("<div class=wide><table class=sortable><thead><tr><th>Run");
+    for title in &table.titles {
+        out.raw("<th>").text(title);
+    }
+    out.raw("</tr></thead><tbody>");
+    for (run, cells) in &table.rows {
+        out.raw("<tr><td>").element(&format!("a href=\"#{}\"", run_anchor(name, run)), run).raw("</td>");
+        for cell in cells {
+            match cell {
+                Ok(number) => {
+                    let sorted = format!(
+                        "td class=\"number{}\" data-value=\"{:e}\"",
+                        if number.varies { " varies" } else { "" },
+                        number.value
+                    );
+                    let text = shown(number);
+                    // The unit stands in the head.
+                    let unit = if number.part { "%" } else { &number.unit };
+                    let text = text
+                        .strip_suffix(&crate::shown::unit_shown(unit))
+                        .unwrap_or(&text)
+                        .trim_end()
+                        .to_owned();
+                    out.element(&sorted, &text);
+                }
+                Err(Missing::Long(seconds)) => {
+                    out.element("td class=missing", &format!("not run: {seconds:.0} s, --long"));
+                }
+                Err(Missing::Because(why)) => {
+                    out.element("td class=missing", why);
+                }
+            }
+        }
+        out.raw("</tr>");
+    }
+    out.raw("</tbody></table></div>");
+    if item.table.iter().flat_map(|table| &table.columns).any(|column| column.quantity == "work.seconds") {
+        out.element("p class=note", "Seconds are those of this machine, and differ from run to run; they decide beyond a factor of 2 only.");
+    }
+    let compared = item
+        .table
+        .iter()
+        .flat_map(|table| &table.columns)
+        .any(|column| column.compared == Some(As::RelativeDifference));
+    if compared {
+        out.element("p class=note", "A relative difference is |a/b − 1|.");
+    }
+}
+
+fn run_anchor(name: &str, run: &str) -> String {
+    format!("{}-run-{}", anchor(name), anchor(run))
+}
+
+/// Every run of an item: its command, its case, its errors and its warnings.
+fn run_details(item: &Item, answers: &Answers<'_>, of: &Reproduced<'_>, name: &str, out: &mut Html) {
+    let all = runs(item);
+    if all.is_empty() {
+        return;
+    }
+    out.raw("<details class=runs><summary>")
+        .text(&format!("{} runs: case, command, errors, warnings", named(item, None).len()));
+    out.raw("</summary>");
+    for run in &all {
+        out.raw(&format!("<details id=\"{}\"><summary>", run_anchor(name, &run.name)))
+            .text(&run.name)
+            .raw("</summary>");
+        out.element("pre class=command", &command(run, &of.paper.name));
+        match answers.get(&run.name) {
+            Some((Some(answer), _)) => {
+                let mut said = format!("{}; errors: {}", answer.status, answer.errors);
+                if let Some(message) = &answer.message {
+                    said = format!("{said}. {message}");
+                }
+                out.element("p", &said);
+                for (quantity, value) in &answer.values {
+                    let text = match value {
+                        Ok(value) => {
+                            let number = crate::term::Number {
+                                value: value.value,
+                                error: value.error,
+                                unit: value.unit.clone(),
+                                part: false,
+                                varies: value.varies,
+                            };
+                            shown(&number)
+                        }
+                        Err(why) => why.clone(),
+                    };
+                    out.raw("<p class=value><code>").text(quantity).raw("</code> ").text(&text).raw("</p>");
+                }
+                for warning in &answer.warnings {
+                    out.element("p class=note", &format!("Warning: {warning}"));
+                }
+                out.raw("<details><summary>The case</summary>")
+                    .element("pre", &answer.stated)
+                    .raw("</details>");
+                out.element(
+                    "p class=\"note varies\"",
+                    &format!("{} s here, errors included", plain((10.0 * answer.seconds).round() / 10.0)),
+                );
+            }
+            Some((None, seconds)) => {
+                out.element("p", &format!("Not run: {:.0} s; --long runs it.", seconds.unwrap_or(0.0)));
+            }
+            None => {}
+        }
+        out.raw("</details>");
+    }
+    out.raw("</details>");
+}
+
+/// The command that runs it.
+fn command(run: &Named, paper: &str) -> String {
+    let sets: Vec<String> =
+        run.key.set.iter().map(|set| format!(" --set '{}'", set.replace('\'', "\""))).collect();
+    let file = format!("papers/{paper}/cases/{}.toml", run.key.case);
+    let (verb, asks) =
+        match (&run.modes, &run.energy) {
+            (Some(modes), _) => {
+                ("modes", format!(" --speed {} --count {}", crate::need::plain(&modes.speed), modes.count))
+            }
+            (_, Some(energy)) => return format!(
+                "flexion reproduce {paper}: frequencies by the {:?} strain energy of {file} at the speed {}",
+                energy.energy,
+                crate::need::plain(&energy.speed)
+            )
+            .to_lowercase(),
+            _ => ("run", String::new()),
+        };
+    format!("flexion {verb} {file}{}{asks}", sets.concat())
+}

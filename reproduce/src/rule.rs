@@ -1,0 +1,170 @@
+//! Rules: what decides a claim.
+
+use crate::described::{As, OfRun, Rule, Term};
+use crate::shown::{plain, shown};
+use crate::term::{Answers, Missing, Number, answer, number, of_run};
+
+/// What a rule gives.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ruled {
+    /// It holds for all values within the errors.
+    Holds,
+    /// It fails for all.
+    Fails,
+    /// Neither, and why.
+    Undecided(String),
+    /// The paper's value is lost, or cannot be repeated.
+    Lost(String),
+    /// Runs that take so long \[s\] together were not asked for.
+    NotRun(f64),
+}
+
+/// The values of a rule, by the names under which sentences have them.
+pub type Words = Vec<(&'static str, String)>;
+
+/// The terms of a rule over several runs.
+pub fn terms(rule: &Rule) -> Vec<OfRun> {
+    match rule {
+        Rule::Agree { runs, quantity, curves, .. } => {
+            let Some(first) = runs.first() else { return Vec::new() };
+            let compared = if *curves { As::CurveDifference } else { As::RelativeDifference };
+            runs[1..].iter().map(|run| of(run, quantity, Some((first, compared)))).collect()
+        }
+        Rule::Grows { runs, quantity } | Rule::Falls { runs, quantity } => {
+            runs.iter().map(|run| of(run, quantity, None)).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+fn of(run: &str, quantity: &str, to: Option<(&String, As)>) -> OfRun {
+    OfRun {
+        run: run.to_owned(),
+        quantity: quantity.to_owned(),
+        to: to.map(|(to, _)| to.clone()),
+        compared: to.map(|(_, compared)| compared),
+    }
+}
+
+/// What a rule gives, and the words of its sentences.
+pub fn ruled(rule: &Rule, answers: &Answers<'_>) -> (Ruled, Words) {
+    let mut words = Words::new();
+    let ruled = decide(rule, answers, &mut words).unwrap_or_else(|missing| match missing {
+        Missing::Long(seconds) => Ruled::NotRun(seconds),
+        Missing::Because(why) => Ruled::Undecided(why),
+    });
+    (ruled, words)
+}
+
+fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled, Missing> {
+    match rule {
+        Rule::Lost { because } => Ok(Ruled::Lost(because.clone())),
+        Rule::Less { left, right } => {
+            let (left_is, right_is) = (number(left, answers)?, number(right, answers)?);
+            words.push(("{left}", said(left, &left_is)));
+            words.push(("{right}", said(right, &right_is)));
+            Ok(less(&left_is, &right_is))
+        }
+        Rule::Within { of, low, high } => {
+            let value = number(of, answers)?;
+            words.push(("{of}", shown(&value)));
+            let bound = |value: f64| Number {
+                value,
+                error: Some(0.0),
+                unit: String::new(),
+                part: false,
+                varies: false,
+            };
+            words.push(("{low}", plain(*low)));
+            words.push(("{high}", plain(*high)));
+            Ok(both([less(&bound(*low), &value), less(&value, &bound(*high))]))
+        }
+        Rule::Agree { within, .. } => {
+            let found = numbers(rule, answers)?;
+            extremes(&found, words);
+            let bound =
+                Number { value: *within, error: Some(0.0), unit: String::new(), part: true, varies: false };
+            Ok(both(found.iter().map(|value| less(value, &bound))))
+        }
+        Rule::Grows { .. } | Rule::Falls { .. } => {
+            let found = numbers(rule, answers)?;
+            extremes(&found, words);
+            let grows = matches!(rule, Rule::Grows { .. });
+            let pairs = found.iter().zip(found.iter().skip(1));
+            Ok(both(pairs.map(|(a, b)| if grows { less(a, b) } else { less(b, a) })))
+        }
+        Rule::EndsEarly { runs } | Rule::Finishes { runs } => {
+            let wanted = matches!(rule, Rule::Finishes { .. });
+            for run in runs {
+                if answer(answers, run)?.finished() != wanted {
+                    return Ok(Ruled::Fails);
+                }
+            }
+            Ok(Ruled::Holds)
+        }
+        Rule::All { rules } => {
+            let mut each = Vec::new();
+            for rule in rules {
+                let mut own = Words::new();
+                each.push(decide(rule, answers, &mut own));
+                for word in own {
+                    if words.iter().all(|(name, _)| *name != word.0) {
+                        words.push(word);
+                    }
+                }
+            }
+            // One that fails decides, whatever is missing of the others.
+            if each.iter().any(|ruled| *ruled == Ok(Ruled::Fails)) {
+                return Ok(Ruled::Fails);
+            }
+            Ok(both(each.into_iter().collect::<Result<Vec<_>, _>>()?))
+        }
+    }
+}
+
+fn numbers(rule: &Rule, answers: &Answers<'_>) -> Result<Vec<Number>, Missing> {
+    terms(rule).iter().map(|of| of_run(of, answers)).collect()
+}
+
+/// The values of several runs as words.
+fn extremes(found: &[Number], words: &mut Words) {
+    let order = |a: &&Number, b: &&Number| a.value.total_cmp(&b.value);
+    let of = |number: Option<&Number>| number.map_or(String::new(), shown);
+    words.push(("{least}", of(found.iter().min_by(order))));
+    words.push(("{most}", of(found.iter().max_by(order))));
+    words.push(("{first}", of(found.first())));
+    words.push(("{last}", of(found.last())));
+}
+
+/// A number as it was written, or as it was found.
+fn said(term: &Term, number: &Number) -> String {
+    if let Term::Number(value) = term { plain(*value) } else { shown(number) }
+}
+
+/// Whether a < b for all values within their errors, or for none.
+fn less(a: &Number, b: &Number) -> Ruled {
+    let (Some(e), Some(f)) = (a.error, b.error) else {
+        let which = if a.error.is_none() { a } else { b };
+        return Ruled::Undecided(format!("the error of {} is not known", shown(which)));
+    };
+    if a.value + e < b.value - f {
+        Ruled::Holds
+    } else if a.value - e >= b.value + f {
+        Ruled::Fails
+    } else {
+        Ruled::Undecided(format!("{} and {} cannot be told apart", shown(a), shown(b)))
+    }
+}
+
+/// All of them.
+fn both(each: impl IntoIterator<Item = Ruled>) -> Ruled {
+    let mut out = Ruled::Holds;
+    for ruled in each {
+        out = match (out, ruled) {
+            (Ruled::Fails, _) | (_, Ruled::Fails) => Ruled::Fails,
+            (Ruled::Holds, other) => other,
+            (kept, _) => kept,
+        };
+    }
+    out
+}

@@ -1,0 +1,36 @@
+//! Numbers as they are shown to people.
+
+use crate::term::Number;
+use flexion_results::with_error;
+
+/// A number with its error and unit: `-0.400335 ± 2e-6 m`, or in per cent what is a part of something.
+pub fn shown(number: &Number) -> String {
+    let (factor, unit) = if number.part { (100.0, "%") } else { (1.0, number.unit.as_str()) };
+    let value = factor * number.value;
+    let text = match number.error {
+        _ if number.varies => format!("{value:.2}"),
+        Some(error) if error > 0.0 => with_error(value, factor * error),
+        Some(_) => plain(value),
+        None => format!("{} ± ?", plain(value)),
+    };
+    format!("{text} {}", unit_shown(unit)).trim_end().to_owned()
+}
+
+/// A number without an error: a count in full, any other with six digits.
+pub fn plain(value: f64) -> String {
+    if value == value.trunc() && value.abs() < 1e9 {
+        return format!("{value:.0}");
+    }
+    let size = value.abs().log10().floor();
+    if (-4.0..6.0).contains(&size) {
+        let text = format!("{value:.*}", (5.0 - size).max(0.0) as usize);
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        format!("{value:.5e}")
+    }
+}
+
+/// A unit as it is printed.
+pub fn unit_shown(unit: &str) -> String {
+    unit.replace('*', "·").replace("^2", "²").replace("^3", "³")
+}

@@ -1,0 +1,134 @@
+//! Terms: quantities of runs, compared with each other, with their errors.
+
+use crate::answer::{Answer, Curve};
+use crate::described::{As, OfRun, Term};
+use std::collections::BTreeMap;
+
+/// A number with its error.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// Its value.
+    pub value: f64,
+    /// Its error ±, where it is known.
+    pub error: Option<f64>,
+    /// Its unit; empty for a pure number.
+    pub unit: String,
+    /// Whether it is a part of something, shown in per cent.
+    pub part: bool,
+    /// Whether it differs from run to run.
+    pub varies: bool,
+}
+
+/// The answers of the runs of an item, by their names; `None` for a run that takes long and was not asked for.
+pub type Answers<'a> = BTreeMap<String, (Option<&'a Answer>, Option<f64>)>;
+
+/// Why there is no number.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Missing {
+    /// The run takes so long \[s\], and was not asked for.
+    Long(f64),
+    /// Something else.
+    Because(String),
+}
+
+/// The answer of a run.
+pub fn answer<'a>(answers: &Answers<'a>, run: &str) -> Result<&'a Answer, Missing> {
+    match answers.get(run) {
+        Some((Some(answer), _)) => Ok(answer),
+        Some((None, seconds)) => Err(Missing::Long(seconds.unwrap_or(0.0))),
+        None => Err(Missing::Because(format!("there is no run `{run}`"))),
+    }
+}
+
+/// The number of a term.
+pub fn number(term: &Term, answers: &Answers<'_>) -> Result<Number, Missing> {
+    match term {
+        Term::Number(value) => {
+            Ok(Number { value: *value, error: Some(0.0), unit: String::new(), part: false, varies: false })
+        }
+        Term::Of(of) => of_run(of, answers),
+    }
+}
+
+/// A quantity of a run, perhaps compared with another run.
+pub fn of_run(of: &OfRun, answers: &Answers<'_>) -> Result<Number, Missing> {
+    let OfRun { run, quantity, to, compared } = of;
+    let because = |run: &str| {
+        let run = run.to_owned();
+        move |why: String| Missing::Because(format!("{run}: {why}"))
+    };
+    let (Some(to), Some(compared)) = (to, compared) else {
+        let value = answer(answers, run)?.value(quantity).map_err(because(run))?;
+        return Ok(Number {
+            value: value.value,
+            error: value.error,
+            unit: value.unit.clone(),
+            part: false,
+            varies: value.varies,
+        });
+    };
+    if *compared == As::CurveDifference {
+        let (column, within) = window(quantity);
+        let curve = |run: &String| answer(answers, run)?.curve(column).map_err(because(run));
+        let (value, error) = apart(curve(run)?, curve(to)?, within).map_err(Missing::Because)?;
+        return Ok(Number { value, error, unit: String::new(), part: true, varies: false });
+    }
+    let a = answer(answers, run)?.value(quantity).map_err(because(run))?;
+    let b = answer(answers, to)?.value(quantity).map_err(because(to))?;
+    let errors = a.error.zip(b.error);
+    let ratio = a.value / b.value;
+    let of_ratio = errors.map(|(e, f)| (e + ratio.abs() * f) / (b.value.abs() - f).max(0.0));
+    let (value, error, unit, part) = match compared {
+        As::Difference => (a.value - b.value, errors.map(|(e, f)| e + f), a.unit.clone(), false),
+        As::Ratio => (ratio, of_ratio, String::new(), false),
+        As::RelativeDifference | As::CurveDifference => ((ratio - 1.0).abs(), of_ratio, String::new(), true),
+    };
+    if !value.is_finite() {
+        return Err(Missing::Because(format!("{quantity} of {to} is zero")));
+    }
+    Ok(Number {
+        value,
+        error: error.filter(|error| error.is_finite()),
+        unit,
+        part,
+        varies: a.varies || b.varies,
+    })
+}
+
+/// A column, and the times to which it is restricted.
+pub fn window(text: &str) -> (&str, (f64, f64)) {
+    let whole = (f64::NEG_INFINITY, f64::INFINITY);
+    let Some((column, times)) = text.split_once('@') else { return (text, whole) };
+    let Some((from, to)) = times.split_once("..") else { return (column, whole) };
+    (column, (from.trim().parse().unwrap_or(whole.0), to.trim().parse().unwrap_or(whole.1)))
+}
+
+/// max |a − b| / max |b| over the common times, and its error by those of both.
+fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f64>), String> {
+    let (mut largest, mut size, mut off) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let mut j = 0;
+    let mut common = 0;
+    for (i, t) in a.t.iter().enumerate() {
+        while j + 1 < b.t.len() && b.t[j] < t - 1e-9 * t.abs().max(1.0) {
+            j += 1;
+        }
+        let same = b.t.get(j).is_some_and(|other| (other - t).abs() <= 1e-9 * t.abs().max(1.0));
+        if !same || !(from..=to).contains(t) {
+            continue;
+        }
+        common += 1;
+        largest = largest.max((a.y[i] - b.y[j]).abs());
+        size = size.max(b.y[j].abs());
+        let error = |curve: &Curve, k: usize| curve.off.get(k).copied().unwrap_or(f64::NAN);
+        let now = error(a, i) + error(b, j);
+        off = if now.is_nan() { f64::NAN } else { off.max(now) };
+    }
+    if common == 0 {
+        return Err("the two runs have no time in common".to_owned());
+    }
+    if size == 0.0 {
+        return Err("the column is zero".to_owned());
+    }
+    let error = (off / size).is_finite().then_some(off / size);
+    Ok((largest / size, error))
+}
