@@ -26,6 +26,7 @@ mod loads;
 mod modal_release;
 mod papers;
 mod pendulum;
+mod quantities;
 mod reported_errors;
 mod restart;
 mod rotor;

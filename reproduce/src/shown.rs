@@ -8,12 +8,18 @@ pub fn shown(number: &Number) -> String {
     let (factor, unit) = if number.part { (100.0, "%") } else { (1.0, number.unit.as_str()) };
     let value = factor * number.value;
     let text = match number.error {
-        _ if number.varies => format!("{value:.2}"),
+        _ if number.varies => two_digits(value),
         Some(error) if error > 0.0 => with_error(value, factor * error),
         Some(_) => plain(value),
         None => format!("{} ± ?", plain(value)),
     };
     format!("{text} {}", unit_shown(unit)).trim_end().to_owned()
+}
+
+/// A number with two digits.
+fn two_digits(value: f64) -> String {
+    let decimals = 1.0 - value.abs().max(f64::MIN_POSITIVE).log10().floor();
+    format!("{value:.*}", decimals.clamp(0.0, 9.0) as usize)
 }
 
 /// A number without an error: a count in full, any other with six digits.

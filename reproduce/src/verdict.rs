@@ -47,7 +47,7 @@ pub fn judged(claim: &Claim, answers: &Answers<'_>) -> Verdict {
         Ruled::Fails => claim.fails.as_deref().map(filled).unwrap_or_default(),
         Ruled::Undecided(why) => {
             let own = claim.undecided.as_deref().map(filled);
-            own.map_or_else(|| capital(why), |own| format!("{own} ({why})"))
+            own.map_or_else(|| format!("Not decided: {why}."), |own| format!("{own} ({why})"))
         }
         Ruled::Lost(because) => because.clone(),
         Ruled::NotRun(seconds) => format!("Not run: {seconds:.0} s, `--long`."),
@@ -56,10 +56,4 @@ pub fn judged(claim: &Claim, answers: &Answers<'_>) -> Verdict {
         sentence = format!("{sentence} {because}").trim().to_owned();
     }
     Verdict { ruled, sentence }
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
 }

@@ -2,7 +2,7 @@
 
 use crate::declaration::Bound::*;
 use crate::fault::{At, Fault, Made, both};
-use crate::keys::{integer, keys, kind, number};
+use crate::keys::{boolean, integer, keys, kind, number};
 use crate::kind::{Choice, Context, Kind, Of};
 use crate::values::join;
 use flexion::analysis::error::SAFETY;
@@ -214,9 +214,10 @@ fn on_nodes(nodes: usize, support: f64, build: Build) -> Functions {
 }
 
 fn radial(k: Multiquadrics, _: &Context<'_>) -> Made<Either> {
-    let Multiquadrics { nodes, shape, exponent, support, degree } = k;
+    let Multiquadrics { nodes, shape, exponent, support, degree, domain_per_point } = k;
+    let degree = usize::try_from(degree).ok();
     let parameters =
-        RadialParameters { nodes, shape, exponent, support, degree: usize::try_from(degree).ok() };
+        RadialParameters { nodes, shape, exponent, support, degree, per_point: domain_per_point };
     Either::new(move |field| {
         let build: Build = Box::new(move |length, _| shared(Radial::new(length, parameters, field)));
         Functions { blame: "shape", ..on_nodes(parameters.nodes, parameters.support, build) }
@@ -287,6 +288,8 @@ keys! {
         support: f64 = number(Positive).or(2.5);
         /// degree of the added polynomials, -1 for none
         degree: i64 = integer(-1, 9).or_integer(3);
+        /// whether each point has a support domain of its own, and not each interval between two nodes: displacements then jump inside of the beam
+        domain_per_point: bool = boolean().or_false();
     }
 
     struct Points {

@@ -168,7 +168,7 @@ impl Polynomial {
                 "support {support} of the polynomial basis must be at least 0.5, or a cell misses its own nodes"
             )));
         }
-        Domains::of(length, nodes, support, field, |positions, x| {
+        Domains::of(length, nodes, (support, false), field, |positions, x| {
             let count = positions.len();
             if count > MOST_NODES {
                 return Err(BasisError::Invalid(format!(

@@ -2,7 +2,7 @@ use super::super::{Basis, Role, checks};
 use super::*;
 
 fn with(shape: f64, support: f64, degree: Option<usize>) -> RadialParameters {
-    RadialParameters { nodes: 11, shape, exponent: 1.03, support, degree }
+    RadialParameters { nodes: 11, shape, exponent: 1.03, support, degree, per_point: false }
 }
 
 #[test]
@@ -127,4 +127,29 @@ fn parameters_out_of_range_are_refused() {
         let error = Radial::new(10.0, parameters, Field::Transverse).unwrap_err();
         assert!(matches!(error, BasisError::Invalid(_)), "{parameters:?}: {error}");
     }
+}
+
+/// Where each point has a domain of its own its functions are those of the nodes within α_s spacings of it, and reproduce what they did; with a whole α_s no node enters or
+/// leaves between two nodes, and the domains are those of the cells.
+#[test]
+fn a_domain_for_each_point_holds_the_nodes_about_it() {
+    let per_point = |shape, support| RadialParameters { per_point: true, ..with(shape, support, Some(1)) };
+    let basis = Radial::new(1.0, per_point(2.0, 2.3), Field::Axial).unwrap();
+    assert_eq!((basis.len(), basis.cells().len()), (10, 31));
+    for i in 0..300 {
+        let x = (f64::from(i) + 0.5) / 300.0;
+        let cell = basis.cells().partition_point(|end| *end <= x) - 1;
+        let mut values = vec![0.0; 10];
+        let support = basis.eval(cell, x, 0, &mut values);
+        let about: Vec<usize> = (1..=10).filter(|node| (x - 0.1 * *node as f64).abs() < 0.23).collect();
+        assert_eq!(support, about[0] - 1..about[about.len() - 1], "x = {x}");
+        let sum: f64 =
+            support.clone().zip(&values).map(|(node, value)| 0.1 * (node + 1) as f64 * value).sum();
+        assert!((sum - x).abs() < 1e-9, "{sum} at {x}");
+    }
+    let [whole, cells] = [true, false].map(|per_point| {
+        let parameters = RadialParameters { per_point, ..with(2.0, 2.0, Some(1)) };
+        Radial::new(1.0, parameters, Field::Transverse).unwrap()
+    });
+    assert_eq!(whole.cells(), cells.cells());
 }

@@ -1,0 +1,90 @@
+//! Numbers of a run, asked for by name.
+
+use flexion_case::{Quantity, Reading, Request, Run, read};
+use std::ops::ControlFlow;
+use std::path::Path;
+
+fn case(name: &str, changes: &[&str]) -> Reading {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification").join(name);
+    let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
+    read(&folder, &changes).unwrap()
+}
+
+fn run(reading: &Reading, names: &[&str], request: &Request) -> (Run, Vec<Quantity>) {
+    let mut prepared = reading.prepare().unwrap();
+    let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+    let quantities = prepared.quantities(&names).unwrap();
+    (reading.calculate(prepared, request, &mut |_| ControlFlow::Continue(())).unwrap().run, quantities)
+}
+
+/// P1's spin-up: smallest deflection, its time and the amplitude after the spin-up are those of an independent program, within the errors that are stated.
+#[test]
+fn values_within_times_and_their_errors_are_those_of_an_independent_program() {
+    let reading = case("p1_spin_up_4", &[]);
+    let names = [
+        "tip.deflection.min",
+        "tip.deflection.time-of-min@..15",
+        "tip.deflection.amplitude@15..20",
+        "tip.deflection.at@7",
+        "tip.deflection.largest@15..",
+    ];
+    let (run, quantities) = run(&reading, &names, &Request::default());
+    let expected = [-0.400_337_216, 6.950_603_36, 0.004_073_497_18];
+    let collected: Vec<_> = quantities.iter().map(|quantity| quantity.collect(&run).unwrap()).collect();
+    for (collected, expected) in collected.iter().zip(expected) {
+        let off = (collected.value - expected).abs();
+        // Of the time, that of a parabola through three records is added.
+        assert!(off <= collected.error.unwrap() + 1e-4 * expected.abs(), "{collected:?} {expected}");
+        assert!(collected.error.unwrap() < 1e-4 * expected.abs(), "{collected:?}");
+    }
+    assert_eq!(quantities[1].unit, "s");
+    let at = run.trajectory.at(run.trajectory.index("tip.deflection").unwrap(), 7.0).unwrap();
+    assert_eq!(collected[3].value, at);
+    assert!(collected[4].value > 0.004 && collected[4].value < 0.0041);
+}
+
+/// The falling pendulum: the second touch and the impulse of the first burst are those of the book, and what is behind the end of a run is refused.
+#[test]
+fn touches_and_impulses_are_those_of_the_events() {
+    let changes = ["run.duration=0.8 s", "output.step=0.5 ms"];
+    let reading = case("falling_pendulum", &changes);
+    let names = [
+        "ground.first-touch",
+        "ground.first-touch@0.5..",
+        "ground.impulse@..0.6",
+        "ground.impacts@..0.6",
+        "work.steps",
+        "run.end",
+        "hub.angle.at@0.9",
+    ];
+    let (run, quantities) = run(&reading, &names, &Request { effort: None, ..Request::default() });
+    let value = |i: usize| quantities[i].collect(&run).unwrap();
+    assert!((value(0).value - 0.370_010_1).abs() < 1e-6);
+    assert!((value(1).value - 0.778_915_97).abs() < 1e-6);
+    assert!((value(2).value - 2.2063).abs() < 1e-3);
+    assert_eq!(value(3).value, 3.0);
+    assert_eq!(value(4).value, run.counters.steps as f64);
+    assert_eq!((value(5).value, value(5).error), (0.8, Some(0.0)));
+    assert!(value(0).error.is_none());
+    assert!(quantities[6].collect(&run).unwrap_err().contains("ends at t = 0.8 s"));
+    let finer = case(
+        "falling_pendulum",
+        &[&changes[..], &["integrator.tolerance=1e-11", "integrator.absolute-tolerance=1e-13"]].concat(),
+    );
+    let (finer, _) = self::run(&finer, &["run.end"], &Request { effort: None, ..Request::default() });
+    let against = quantities[1].collect_against(&run, &finer).unwrap();
+    assert!(against.error.is_some_and(|error| error < 1e-5), "{against:?}");
+}
+
+#[test]
+fn what_is_no_quantity_is_refused_with_the_nearest_name() {
+    let reading = case("p1_spin_up_4", &[]);
+    let mut prepared = reading.prepare().unwrap();
+    let mut refused = |name: &str| prepared.quantities(&[name.to_owned()]).unwrap_err().to_string();
+    assert!(refused("tip.deflektion.min").contains("tip.deflection"));
+    assert!(refused("tip.deflection.min@3").contains("two times"));
+    assert!(refused("tip.deflection.at").contains("a time"));
+    assert!(refused("tip.deflection.min@5..3").contains("two times"));
+    assert!(refused("ground.impulse").contains("ground"));
+    assert!(refused("work.step").contains("work"));
+}
