@@ -84,14 +84,14 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
     let mut items = Vec::new();
     for item in &paper.items {
         let file = format!("{item}.toml");
-        let Some(read) = parsed::<Item>(place, &file, files, &mut problems) else { continue };
+        let Some(mut read) = parsed::<Item>(place, &file, files, &mut problems) else { continue };
+        if read.kind == ItemKind::Drawing {
+            read.drawing.get_or_insert_with(|| format!("{item}.svg"));
+        }
         let cases = read.runs.iter().map(|run| ("case", format!("cases/{}.toml", run.case)));
         let drawing = read.drawing.iter().map(|file| ("drawing", file.clone()));
         for (what, name) in cases.chain(drawing).filter(|(_, name)| !files.contains_key(name)) {
             problems.push(format!("{place}/{file}: its {what} {place}/{name} does not exist"));
-        }
-        if read.kind == ItemKind::Drawing && read.drawing.is_none() {
-            problems.push(format!("{place}/{file}: a drawing has `drawing`, the name of its file"));
         }
         problems.extend(
             crate::need::problems(&read).into_iter().map(|problem| format!("{place}/{file}: {problem}")),
