@@ -123,8 +123,12 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
         Err(problems) => Answer::rejected(problems.reason()),
         Ok(reading) => {
             let mut answer = match (&run.modes, &run.energy) {
-                (Some(modes), _) => frequencies(of_modes(&reading, modes)),
-                (_, Some(energy)) => frequencies(of_energy(&reading, energy)),
+                (Some(modes), _) => {
+                    // Where the discretization is a part of what is asked.
+                    let own = run.key.against.as_ref().is_some_and(Vec::is_empty);
+                    frequencies(of_modes(&reading, modes, own), own)
+                }
+                (_, Some(energy)) => frequencies(of_energy(&reading, energy), true),
                 _ => in_time(&reading, need, shared, stop)?,
             };
             answer.stated = reading.stated();
@@ -171,6 +175,7 @@ fn in_time(
         Err(error) => return Ok(Answer::rejected(error.to_string())),
     };
     let changes = against.filter(|changes| !changes.is_empty());
+    let itself = against.is_some_and(Vec::is_empty);
     let other = changes.map(|changes| {
         let other = reading.with(changes).map_err(|problems| problems.reason())?;
         shared.run(&other, stop)
@@ -184,7 +189,10 @@ fn in_time(
                 Some(Ok(other)) => quantity.collect_against(&run, other)?,
                 _ => quantity.collect(&run)?,
             };
-            let (value, error) = (collected.value, collected.error);
+            let value = collected.value;
+            // Where the run is asked for with the mesh and the steps that it has.
+            let own = itself && !quantity.varies();
+            let error = if own { Some(ROUNDED * value.abs()) } else { collected.error };
             Ok(Valued { value, error, varies: quantity.varies(), unit: quantity.unit })
         });
         (name.clone(), valued)
@@ -194,7 +202,14 @@ fn in_time(
         (_, Some(errors)) if errors.unknown.is_none() => Some((Cow::Borrowed(&errors.finer), errors.safety)),
         _ => None,
     };
-    let curves = need.columns.iter().map(|name| (name.clone(), curve(&run, name, compared.as_ref())));
+    let curve_of = |name: &String| {
+        let mut curve = curve(&run, name, compared.as_ref())?;
+        if itself {
+            curve.off = vec![0.0; curve.t.len()];
+        }
+        Ok(curve)
+    };
+    let curves = need.columns.iter().map(|name| (name.clone(), curve_of(name)));
     let errors = match (&other, changes, &run.errors) {
         (Some(Ok(_)), Some(changes), _) => {
             format!("twice the difference from the run with {}", changes.join(", "))
@@ -204,7 +219,7 @@ fn in_time(
             || "by a companion with a finer mesh and a more accurate integration".to_owned(),
             |why| format!("not known: {why}"),
         ),
-        _ => "not stated".to_owned(),
+        _ => "of rounding: the run is asked for with the mesh and the steps that it has".to_owned(),
     };
     let warnings = run.all_warnings().map(str::to_owned).collect();
     Ok(Answer {
@@ -242,7 +257,7 @@ fn curve(run: &Run, name: &str, compared: Option<&(Cow<'_, Trajectory>, f64)>) -
 /// Frequencies with their errors, and their unit.
 type Found = Result<(Vec<(f64, Option<f64>)>, &'static str), String>;
 
-fn frequencies(found: Found) -> Answer {
+fn frequencies(found: Found, own: bool) -> Answer {
     match found {
         Err(why) => Answer::rejected(why),
         Ok((found, unit)) => {
@@ -252,7 +267,7 @@ fn frequencies(found: Found) -> Answer {
             };
             Answer {
                 status: "finished".to_owned(),
-                errors: "by a finer mesh".to_owned(),
+                errors: if own { "of rounding" } else { "by a finer mesh" }.to_owned(),
                 values: found.into_iter().enumerate().map(valued).collect(),
                 ..Answer::default()
             }
@@ -283,7 +298,7 @@ fn scale(unit: Option<&toml::Value>, speed: &toml::Value) -> Result<(Option<f64>
     Ok((unit, speed))
 }
 
-fn of_modes(reading: &Reading, asked: &OfModes) -> Found {
+fn of_modes(reading: &Reading, asked: &OfModes, own: bool) -> Found {
     let (unit, speed) = scale(asked.unit.as_ref(), &asked.speed)?;
     let factor = unit.unwrap_or(1.0);
     let found = if asked.transverse {
@@ -297,10 +312,15 @@ fn of_modes(reading: &Reading, asked: &OfModes) -> Found {
             .map(|mode| (mode.frequency(), mode.mesh.map(|mesh| mesh + mode.rounding * mode.frequency())))
             .collect()
     };
-    let scaled = found.into_iter().map(|(value, error)| (factor * value, error.map(|error| factor * error)));
+    let rounding =
+        |(value, error): (f64, Option<f64>)| (value, if own { Some(ROUNDED * value) } else { error });
+    let found = found.into_iter().map(rounding);
+    let scaled = found.map(|(value, error)| (factor * value, error.map(|error| factor * error)));
     Ok((scaled.collect(), if unit.is_some() { "" } else { "rad/s" }))
 }
 
+/// What rounding leaves of a value, relative.
+const ROUNDED: f64 = 1e-12;
 /// What Ritz's method with 20 polynomials leaves of the first frequencies, relative.
 const RITZ: f64 = 1e-9;
 

@@ -38,8 +38,11 @@ pub struct Paper {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub enum ItemKind {
+    /// Curves or points.
     Figure,
+    /// Numbers.
     Table,
+    /// A sketch of what is computed.
     Drawing,
 }
 

@@ -48,7 +48,7 @@ pub fn points(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Vec<(Named, Re
         let of = OfRun {
             run: run.name.clone(),
             quantity: plot.y.clone(),
-            to: to.clone(),
+            to: to.as_ref().map(|to| crate::need::filled(to, &run.of)),
             compared: plot.compared,
         };
         let number = of_run(&of, answers).map_err(|missing| format!("{missing:?}"));
@@ -73,6 +73,10 @@ fn panel(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
     };
     if let Some(label) = &plot.label {
         panel.y.quantity.clone_from(label);
+        // A label may have its unit in it.
+        if label.ends_with(']') {
+            panel.y.unit.clear();
+        }
     }
     if plot.log {
         panel.y.scale = flexion_results::plot::Scale::Logarithmic;
@@ -112,10 +116,12 @@ fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
     let mut unit = String::new();
     for (run, number) in points(item, plot, answers) {
         let Some(at) = run.of.get(x).and_then(value_of) else { continue };
-        let others: Vec<String> =
-            run.of.iter().filter(|(key, _)| *key != x).map(|(_, value)| plain(value)).collect();
-        // What is not varied stands in the name of the run.
-        let name = series_name(&run, x, &others);
+        let (mut name, label) = without(&run, x);
+        panel.x.quantity = label.unwrap_or_else(|| x.to_owned());
+        if name.is_empty() {
+            let others = run.of.iter().filter(|(key, _)| *key != x);
+            name = others.map(|(_, value)| plain(value)).collect::<Vec<_>>().join(", ");
+        }
         let Ok(number) = number else { continue };
         let factor = if number.part { 100.0 } else { 1.0 };
         unit = if number.part { "%".to_owned() } else { crate::shown::unit_shown(&number.unit) };
@@ -144,16 +150,13 @@ fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
     panel
 }
 
-/// The name of a run without the value of `x`.
-fn series_name(run: &Named, x: &str, others: &[String]) -> String {
-    let value = run.of.get(x).map(plain).unwrap_or_default();
-    let mut name = run.name.clone();
-    if let Some(at) = name.rfind(&value).filter(|_| !value.is_empty()) {
-        name.replace_range(at..at + value.len(), "");
-    }
-    let name =
-        name.trim_matches([' ', ',', '=', 'γ', ':']).trim_end_matches(x).trim_matches([' ', ',', '=', ':']);
-    if name.is_empty() { others.join(", ") } else { name.to_owned() }
+/// The parts of the name of a run without that which names the value of `x`, which is given apart: `γ`.
+fn without(run: &Named, x: &str) -> (String, Option<String>) {
+    let key = format!("{{{x}}}");
+    let (with, others): (Vec<&str>, Vec<&str>) =
+        run.pattern.split(", ").partition(|part| part.contains(&key));
+    let label = with.first().map(|part| part.replace(&key, "").trim_matches([' ', '=']).to_owned());
+    (crate::need::filled(&others.join(", "), &run.of), label.filter(|label| !label.is_empty()))
 }
 
 fn value_of(value: &toml::Value) -> Option<f64> {

@@ -27,7 +27,7 @@ mod verdict;
 pub use answer::{Answer, Curve, Valued};
 pub use check::{CheckError, Checked, check, expected};
 pub use compute::{Options, Progress, Stopped, compute};
-pub use described::Described;
+pub use described::{Described, ItemKind};
 pub use keep::identity_of_program;
 pub use need::{Key, Named, Need, of_paper};
 pub use paper::{PaperError, built_in, built_in_names, from_folder};

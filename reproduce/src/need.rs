@@ -32,6 +32,8 @@ pub enum Asks {
 pub struct Named {
     /// Its name in the item.
     pub name: String,
+    /// The same with `{key}` where values of `each` stand.
+    pub pattern: String,
     /// What it is.
     pub key: Key,
     /// The values of `each` that it is of.
@@ -133,13 +135,21 @@ fn expanded(template: &Template) -> Vec<Named> {
                 against: template.against.as_ref().map(|against| against.iter().map(fill).collect()),
                 asks,
             };
-            Named { name: fill(&template.name), key, seconds: template.seconds, modes, energy, of }
+            Named {
+                name: fill(&template.name),
+                pattern: template.name.clone(),
+                key,
+                seconds: template.seconds,
+                modes,
+                energy,
+                of,
+            }
         })
         .collect()
 }
 
 /// A text with `{key}` replaced by its value.
-fn filled(text: &str, of: &BTreeMap<String, toml::Value>) -> String {
+pub fn filled(text: &str, of: &BTreeMap<String, toml::Value>) -> String {
     of.iter().fold(text.to_owned(), |text, (key, value)| text.replace(&format!("{{{key}}}"), &plain(value)))
 }
 
@@ -156,6 +166,13 @@ type Asked = BTreeSet<(String, String)>;
 /// The quantities and the columns that an item asks of its runs.
 fn asked(item: &Item) -> (Asked, Asked) {
     let (mut quantities, mut columns) = (Asked::new(), Asked::new());
+    let all: BTreeMap<String, BTreeMap<String, toml::Value>> =
+        runs(item).into_iter().map(|run| (run.name, run.of)).collect();
+    // The run that one is compared with may be named by what the one is of.
+    let partner = |run: &String, to: Option<String>| {
+        let none = BTreeMap::new();
+        to.map(|to| filled(&to, all.get(run).unwrap_or(&none)))
+    };
     let mut ask = |run: &str, to: Option<&String>, quantity: &str, compared: Option<As>| {
         let curve = compared == Some(As::CurveDifference);
         let what = if curve { quantity.split('@').next().unwrap_or(quantity) } else { quantity };
@@ -168,7 +185,7 @@ fn asked(item: &Item) -> (Asked, Asked) {
         for run in named(item, plot.runs.as_ref()) {
             match &plot.x {
                 Some(_) => {
-                    let to = plot.to.as_ref().map(plain);
+                    let to = partner(&run, plot.to.as_ref().map(plain));
                     ask(&run, to.as_ref(), &plot.y, plot.compared);
                 }
                 None => ask(&run, None, &plot.y, Some(As::CurveDifference)),
@@ -178,7 +195,8 @@ fn asked(item: &Item) -> (Asked, Asked) {
     if let Some(table) = &item.table {
         for run in named(item, table.runs.as_ref()) {
             for column in &table.columns {
-                ask(&run, column.to.as_ref(), &column.quantity, column.compared);
+                let to = partner(&run, column.to.clone());
+                ask(&run, to.as_ref(), &column.quantity, column.compared);
             }
         }
     }

@@ -14,6 +14,9 @@ use crate::verdict::{Verdict, judged};
 use flexion_results::{OutputError, VERSION, write_file};
 use std::path::{Path, PathBuf};
 
+/// Widths of figures with several panels and with one [mm].
+const WIDE: f64 = 240.0;
+const NARROW: f64 = 150.0;
 const PAGE: &str = include_str!("report.html");
 
 /// A paper with its answers.
@@ -259,7 +262,8 @@ fn item_section(
             .raw("</figure>");
     }
     if let Some(figure) = figure(item, answers) {
-        out.raw("<figure class=plot>").raw(&figure.draw().svg());
+        out.raw("<figure class=plot>")
+            .raw(&figure.draw_in(if figure.columns > 1 { WIDE } else { NARROW }).svg());
         let banded = figure
             .panels
             .iter()

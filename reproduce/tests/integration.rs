@@ -1,0 +1,300 @@
+//! Papers as data: that they are whole, that verdicts follow from values, and that answers are kept.
+
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use flexion_reproduce::{
+    Answer, Described, Options, Reproduced, Stopped, built_in, built_in_names, check, compute, expected,
+    from_folder, of_paper, write,
+};
+use std::path::Path;
+
+/// The numbered items of the five papers.
+const ITEMS: [(&str, &[&str]); 5] = [
+    ("P1", &["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10", "F11", "T1", "T2", "T3"]),
+    ("P2", &["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "T1"]),
+    ("P3", &["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "F10", "F11", "T1", "T2"]),
+    ("P4", &["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8", "F9", "T1"]),
+    ("P5", &["F1", "F2"]),
+];
+
+fn computed(paper: &Described, options: &Options) -> Vec<Option<Answer>> {
+    compute(&paper.cases, &of_paper(paper).0, options, &|| false, &|_| ()).unwrap()
+}
+
+/// The answers of one item.
+fn of_item(paper: &Described, item: &str) -> Vec<Option<Answer>> {
+    let numbers = of_paper(paper).1;
+    let only = numbers.iter().filter(|((of, _), _)| of == item).map(|(_, number)| *number).collect();
+    computed(paper, &Options { only: Some(only), ..Options::default() })
+}
+
+fn verdicts(paper: &Described, item: &str) -> Vec<&'static str> {
+    let answers = of_item(paper, item);
+    let reproduced = Reproduced { paper, answers: &answers, items: vec![item.to_owned()] };
+    reproduced.verdicts().iter().map(|(_, verdict)| verdict.word()).collect()
+}
+
+#[test]
+fn all_items_of_the_five_papers_are_there() {
+    assert_eq!(built_in_names(), ITEMS.map(|(name, _)| name));
+    let (mut drawings, mut results) = (0, 0);
+    for (name, items) in ITEMS {
+        let paper = built_in(name).unwrap();
+        let mut there: Vec<&str> = paper.items.iter().map(|(id, _)| id.as_str()).collect();
+        let mut wanted = items.to_vec();
+        there.sort_unstable();
+        wanted.sort_unstable();
+        assert_eq!(there, wanted, "{name}");
+        for (id, item) in &paper.items {
+            assert!(item.survives.is_some(), "{name} {id} does not say what of the paper survives");
+            if item.kind == flexion_reproduce::ItemKind::Drawing {
+                drawings += 1;
+                assert!(paper.drawings.contains_key(item.drawing.as_ref().unwrap()), "{name} {id}");
+            } else {
+                results += 1;
+                assert!(!item.claims.is_empty(), "{name} {id} has no verdict");
+                assert!(item.table.is_some() || !item.plots.is_empty(), "{name} {id} has no value of ours");
+            }
+        }
+    }
+    assert_eq!((drawings, results), (11, 37));
+}
+
+/// Words of papers are in their data only.
+#[test]
+fn no_source_names_a_paper() {
+    for file in std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("src")).unwrap() {
+        let path = file.unwrap().path();
+        let text = std::fs::read_to_string(&path).unwrap();
+        for (name, _) in ITEMS {
+            let named = text.split(|letter: char| !letter.is_alphanumeric()).any(|word| word == name);
+            assert!(!named, "{} names {name}", path.display());
+        }
+    }
+}
+
+fn paper_of(folder: &Path, item: &str) -> Described {
+    let put = |name: &str, text: &str| {
+        let path = folder.join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, text).unwrap();
+    };
+    let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p1_spin_up_4/case.toml");
+    put("cases/spin_up.toml", &std::fs::read_to_string(case).unwrap());
+    put(
+        "paper.toml",
+        "title = 'Title <script>'\nauthors = 'A'\nsource = 'S'\nabout = 'About'\nitems = ['F1']\n",
+    );
+    put("F1.toml", item);
+    from_folder(folder).unwrap()
+}
+
+const RUNS: &str = "title = 'Tip'
+kind = 'figure'
+[[run]]
+name = 'few'
+case = 'spin_up'
+set = ['run.duration=6 s', 'basis={kind=\"modes\",axial=2,transverse=2}']
+[[run]]
+name = 'many'
+case = 'spin_up'
+set = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4,transverse=4}']
+[[run]]
+name = 'breaks'
+case = 'spin_up'
+set = ['model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s']
+against = []
+[[plot]]
+y = 'tip.deflection'
+[table]
+columns = [{ title = 'smallest', quantity = 'tip.deflection.min', unit = 'mm' }]
+";
+
+/// Every kind of rule holds in one case and fails in another.
+#[test]
+fn each_kind_of_rule_is_flipped_by_a_changed_case() {
+    let min = |run: &str| format!("{{ run = '{run}', quantity = 'tip.deflection.min' }}");
+    let rules = [
+        format!("{{ kind = 'less', left = {}, right = -0.3 }}", min("many")),
+        format!("{{ kind = 'within', of = {}, low = -0.4, high = -0.3 }}", min("many")),
+        "{ kind = 'agree', runs = ['many', 'few'], quantity = 'tip.deflection.min', within = 0.01 }".to_owned(),
+        "{ kind = 'agree', runs = ['many', 'few'], quantity = 'tip.deflection@..5', within = 0.01, curves = true }".to_owned(),
+        "{ kind = 'falls', runs = ['many', 'breaks'], quantity = 'run.end' }".to_owned(),
+        "{ kind = 'grows', runs = ['breaks', 'many'], quantity = 'run.end' }".to_owned(),
+        "{ kind = 'ends-early', runs = ['breaks'] }".to_owned(),
+        "{ kind = 'finishes', runs = ['few', 'many'] }".to_owned(),
+        format!("{{ kind = 'all', rules = [{{ kind = 'finishes', runs = ['few'] }}, {{ kind = 'less', left = {}, right = -0.3 }}] }}", min("few")),
+        "{ kind = 'lost', because = 'It is lost.' }".to_owned(),
+    ];
+    let claims: Vec<String> = rules
+        .iter()
+        .map(|rule| format!("[[claim]]\ntext = 'T'\nholds = 'H'\nfails = 'F'\nrule = {rule}\n"))
+        .collect();
+    let text = format!("{RUNS}{}", claims.concat());
+    let folder = tempfile::tempdir().unwrap();
+    let found = verdicts(&paper_of(folder.path(), &text), "F1");
+    assert_eq!(
+        found,
+        ["holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "lost"]
+    );
+    // A stiff beam, and runs that change places.
+    let changed = text
+        .replace("set = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4,transverse=4}']", "set = ['run.duration=6 s', 'section.modulus=700 GPa', 'basis={kind=\"modes\",axial=1,transverse=1}']")
+        .replace("name = 'few'\ncase = 'spin_up'\nset = ['run.duration=6 s'", "name = 'few'\ncase = 'spin_up'\nset = ['model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s'")
+        .replace("'model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s']\nagainst", "'run.duration=6 s']\nagainst");
+    let folder = tempfile::tempdir().unwrap();
+    let found = verdicts(&paper_of(folder.path(), &changed), "F1");
+    assert_eq!(
+        found,
+        ["fails", "fails", "fails", "fails", "fails", "fails", "fails", "fails", "fails", "lost"]
+    );
+}
+
+/// A claim of each paper is flipped by another case: a stiffer or a shorter beam, a coarse mesh, numerical damping.
+#[test]
+fn a_changed_case_flips_a_verdict_of_each_paper() {
+    let changes = [
+        ("P1", "F10", "modulus=5 GPa", "modulus=200 GPa"),
+        ("P2", "F6", "elements={n}", "elements=2"),
+        ("P3", "F11", "ceramic-modulus=15.1 GPa", "ceramic-modulus=151 GPa"),
+        ("P4", "F6", "alpha=0,", "alpha=0.3333,"),
+        ("P5", "F2", "400 N", "40000 N"),
+    ];
+    for (name, item, from, to) in changes {
+        let paper = built_in(name).unwrap();
+        let before = verdicts(&paper, item);
+        let mut changed = paper.clone();
+        let mut replaced = 0;
+        for run in changed.items.iter_mut().filter(|(id, _)| id == item).flat_map(|(_, item)| &mut item.runs)
+        {
+            for set in &mut run.set {
+                replaced += set.matches(from).count();
+                *set = set.replace(from, to);
+            }
+        }
+        assert!(replaced > 0, "{name} {item} has no {from}");
+        assert_ne!(before, verdicts(&changed, item), "{name} {item}");
+    }
+}
+
+#[test]
+fn answers_are_kept_and_a_torn_one_is_computed_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let paper = paper_of(folder.path(), RUNS);
+    let keep = folder.path().join("kept");
+    let options =
+        Options { keep: Some(keep.clone()), identity: "this".to_owned(), threads: 1, ..Options::default() };
+    let needs = of_paper(&paper).0;
+    // Stopped behind the first run.
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let stop = || done.load(std::sync::atomic::Ordering::Relaxed) >= 1;
+    let count = |_| {
+        done.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+    };
+    assert_eq!(compute(&paper.cases, &needs, &options, &stop, &count), Err(Stopped));
+    let found = |options: &Options| {
+        let found = std::sync::atomic::AtomicUsize::new(0);
+        let answers = compute(&paper.cases, &needs, options, &|| false, &|progress| {
+            found.fetch_max(progress.found, std::sync::atomic::Ordering::Relaxed);
+        });
+        (answers.unwrap(), found.into_inner())
+    };
+    let (answers, before) = found(&options);
+    assert_eq!(before, 1);
+    assert_eq!(found(&options), (answers.clone(), 3));
+    let mut files: Vec<_> = std::fs::read_dir(&keep).unwrap().map(|file| file.unwrap().path()).collect();
+    files.sort();
+    let whole = std::fs::read(&files[0]).unwrap();
+    std::fs::write(&files[0], &whole[..whole.len() / 2]).unwrap();
+    let edited = std::fs::read_to_string(&files[1]).unwrap().replacen("value\":", "value\":1", 1);
+    std::fs::write(&files[1], edited).unwrap();
+    let (again, found_again) = found(&options);
+    assert_eq!(found_again, 1);
+    let timeless = |answers: &[Option<Answer>]| -> Vec<Option<Answer>> {
+        answers.iter().cloned().map(|answer| answer.map(|answer| Answer { seconds: 0.0, ..answer })).collect()
+    };
+    assert_eq!(timeless(&again), timeless(&answers));
+    // Another program finds nothing.
+    assert_eq!(found(&Options { identity: "other".to_owned(), ..options }).1, 0);
+}
+
+/// The page holds no mark that a paper has in its texts, asks for no other file, and is the same on any number of threads.
+#[test]
+fn the_page_is_the_same_twice_and_holds_no_foreign_mark() {
+    let folder = tempfile::tempdir().unwrap();
+    let paper = paper_of(folder.path(), RUNS);
+    let page = |threads: usize| {
+        let answers = computed(&paper, &Options { threads, ..Options::default() });
+        let answers: Vec<Option<Answer>> = answers
+            .into_iter()
+            .map(|answer| answer.map(|answer| Answer { seconds: 0.0, ..answer }))
+            .collect();
+        let to = folder.path().join(format!("report{threads}"));
+        let reproduced = Reproduced { paper: &paper, answers: &answers, items: vec!["F1".to_owned()] };
+        let files = write(&[reproduced], &to).unwrap();
+        files.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect::<Vec<_>>()
+    };
+    let pages = page(1);
+    assert_eq!(pages, page(2));
+    let report = pages.last().unwrap();
+    assert!(report.contains("Title &lt;script&gt;") && report.matches("<script>").count() == 1);
+    for foreign in ["src=", "url(", "@import", "<link"] {
+        assert!(!report.contains(foreign), "{foreign}");
+    }
+    assert!(report.contains("<polygon") || report.contains("<polyline"));
+}
+
+#[test]
+fn a_check_finds_changed_values_and_grown_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut paper = paper_of(
+        folder.path(),
+        &format!("{RUNS}[[claim]]\ntext = 'T'\nrule = {{ kind = 'finishes', runs = ['few'] }}\n"),
+    );
+    let answers = computed(&paper, &Options::default());
+    assert!(check(&paper, &answers).unwrap_err().to_string().contains("--accept"));
+    paper.expected = Some(expected(&paper, &answers));
+    let found = check(&paper, &answers).unwrap();
+    assert!(found.failed.is_empty() && found.listed.is_empty() && found.compared >= 3, "{found:?}");
+    let accepted = paper.expected.clone().unwrap();
+    let changed = |change: &dyn Fn(&mut flexion_reproduce::Valued)| {
+        let mut answers = answers.clone();
+        let values = answers.iter_mut().flatten().flat_map(|answer| answer.values.values_mut()).flatten();
+        values.take(1).for_each(change);
+        check(&paper, &answers).unwrap()
+    };
+    let [far, near, grown] = [
+        changed(&|value| value.value *= 1.5),
+        changed(&|value| value.value += 0.5 * value.error.unwrap()),
+        changed(&|value| value.error = value.error.map(|error| 20.0 * error)),
+    ];
+    assert_eq!((far.failed.len(), near.failed.len(), near.listed.len(), grown.failed.len()), (1, 0, 1, 1));
+    paper.expected = Some(accepted.replace("\"holds\"", "\"fails\""));
+    assert_eq!(check(&paper, &answers).unwrap().failed.len(), 1);
+}
+
+#[test]
+fn everything_wrong_with_a_paper_is_said_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    paper_of(folder.path(), RUNS);
+    let item = format!(
+        "{}[[claim]]\ntext = 'T'\nrule = {{ kind = 'finishes', runs = ['fev'] }}\n",
+        RUNS.replace(
+            "case = 'spin_up'\nset = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4",
+            "case = 'spin_down'\nset = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4"
+        )
+    );
+    std::fs::write(folder.path().join("F1.toml"), item).unwrap();
+    std::fs::write(folder.path().join("F9.toml"), RUNS).unwrap();
+    let message = from_folder(folder.path()).unwrap_err().to_string();
+    for part in ["cases/spin_down.toml does not exist", "perhaps `few`", "F9.toml is no item"] {
+        assert!(message.contains(part), "{message}");
+    }
+    std::fs::write(folder.path().join("F1.toml"), RUNS.replace("[table]", "[tabel]")).unwrap();
+    let message = from_folder(folder.path()).unwrap_err().to_string();
+    assert!(
+        message.contains("tabel") && message.contains("F1.toml") && message.contains("line"),
+        "{message}"
+    );
+    assert!(built_in("P9").unwrap_err().to_string().contains("P1, P2, P3, P4, P5"));
+}
