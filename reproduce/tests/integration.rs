@@ -137,17 +137,33 @@ fn each_kind_of_rule_is_flipped_by_a_changed_case() {
         found,
         ["holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "lost"]
     );
-    // A stiff beam, and runs that change places.
-    let changed = text
-        .replace("set = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4,transverse=4}']", "set = ['run.duration=6 s', 'section.modulus=700 GPa', 'basis={kind=\"modes\",axial=1,transverse=1}']")
-        .replace("name = 'few'\ncase = 'spin_up'\nset = ['run.duration=6 s'", "name = 'few'\ncase = 'spin_up'\nset = ['model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s'")
-        .replace("'model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s']\nagainst", "'run.duration=6 s']\nagainst");
-    let folder = tempfile::tempdir().unwrap();
-    let found = verdicts(&paper_of(folder.path(), &changed), "F1");
-    assert_eq!(
-        found,
-        ["fails", "fails", "fails", "fails", "fails", "fails", "fails", "fails", "fails", "lost"]
-    );
+    let many = "set = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4,transverse=4}']";
+    let stiff = "set = ['run.duration=6 s', 'section.modulus=700 GPa', 'basis={kind=\"modes\",axial=4,transverse=4}']";
+    let breaks = "'model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s'";
+    let changes: [(&[(&str, &str)], [&str; 10]); 2] = [
+        (
+            &[(many, stiff), (breaks, "'run.duration=7 s'")],
+            ["fails", "fails", "fails", "fails", "fails", "fails", "fails", "holds", "holds", "lost"],
+        ),
+        (
+            &[(
+                "'run.duration=6 s', 'basis={kind=\"modes\",axial=2",
+                "'model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s', 'basis={kind=\"modes\",axial=2",
+            )],
+            ["holds", "holds", "", "", "holds", "holds", "holds", "fails", "fails", "lost"],
+        ),
+    ];
+    for (changes, expected) in changes {
+        let changed = changes.iter().fold(text.clone(), |text, (from, to)| {
+            assert!(text.contains(from), "{from}");
+            text.replace(from, to)
+        });
+        let folder = tempfile::tempdir().unwrap();
+        let found = verdicts(&paper_of(folder.path(), &changed), "F1");
+        for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+            assert!(expected.is_empty() || *found == expected, "rule {i}: {found}");
+        }
+    }
 }
 
 /// A claim of each paper is flipped by another case: a stiffer or a shorter beam, a coarse mesh, numerical damping.
@@ -161,7 +177,12 @@ fn a_changed_case_flips_a_verdict_of_each_paper() {
         ("P5", "F2", "400 N", "40000 N"),
     ];
     for (name, item, from, to) in changes {
-        let paper = built_in(name).unwrap();
+        let mut paper = built_in(name).unwrap();
+        // A second of a motion in space is enough.
+        let short = (name == "P2").then(|| "run.duration=1 s".to_owned());
+        for run in paper.items.iter_mut().flat_map(|(_, item)| &mut item.runs) {
+            run.set.extend(short.clone());
+        }
         let before = verdicts(&paper, item);
         let mut changed = paper.clone();
         let mut replaced = 0;
