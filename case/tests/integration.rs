@@ -11,6 +11,7 @@ mod contact_in_space;
 mod convergence;
 mod deck_formats;
 mod deck_frequencies;
+mod deck_slips;
 mod decks;
 mod disturbance;
 mod docs;

@@ -6,7 +6,7 @@
 
 use super::fortran::{Text, number};
 use super::rows::{BEAMDYN, Row};
-use super::{Deck, Find, Line, Raw};
+use super::{Deck, Find, Keypoints, Line, Raw, Silent};
 use flexion::linalg::Vec3;
 use flexion::section::Matrix6;
 use std::fmt::Write;
@@ -51,7 +51,13 @@ pub(super) fn read(find: Find<'_>, name: &str) -> Result<Deck, String> {
     let twist: Vec<[f64; 2]> =
         points.iter().map(|(_, place, twist)| [place[2], twist.to_radians()]).collect();
     let line = Line::through(&places, &twist).map_err(|error| format!("{name}: {error}"))?;
-    Raw { name: &file, convention: &BEAMDYN, line, rows, damping, cautions, notes }.deck()
+    let keypoints = Keypoints {
+        name: name.to_owned(),
+        points: points.iter().map(|(line, place, _)| (*line, *place)).collect(),
+        twist: points.iter().map(|(line, place, twist)| (*line, place[2], *twist)).collect(),
+    };
+    let silent = Silent::default();
+    Raw { name: &file, convention: &BEAMDYN, line, keypoints, rows, damping, cautions, notes, silent }.deck()
 }
 
 /// The name of the blade file that the text of a primary file names.

@@ -10,7 +10,7 @@
 use super::fortran::decoded;
 use super::rows::{BEAMDYN, Convention, Row};
 use super::yaml::{self, Node};
-use super::{Deck, Line, Raw};
+use super::{Deck, Keypoints, Line, Raw, Silent};
 use flexion::linalg::Vec3;
 use flexion::profile::{End, Profile, Table};
 use flexion::section::Matrix6;
@@ -217,7 +217,7 @@ fn inertia(node: &Node, name: &str) -> Result<Matrices, String> {
 }
 
 /// The line through `reference_axis`, with the twist at rows (u, angle \[rad\]).
-fn line(axis: &Node, twist: &[[f64; 2]], name: &str) -> Result<Line, String> {
+fn line(axis: &Node, twist: &[[f64; 2]], name: &str) -> Result<(Line, Vec<(usize, Vec3)>), String> {
     let mut coordinates = Vec::with_capacity(3);
     for key in ["x", "y", "z"] {
         let found = distribution(axis, &[key], name)?;
@@ -237,7 +237,8 @@ fn line(axis: &Node, twist: &[[f64; 2]], name: &str) -> Result<Line, String> {
         }))
     };
     let points: Vec<(f64, Vec3)> = all.into_iter().map(|u| (u, place(u))).collect();
-    Line::through(&points, twist).map_err(|error| format!("{name}, `reference_axis`: {error}"))
+    let line = Line::through(&points, twist).map_err(|error| format!("{name}, `reference_axis`: {error}"))?;
+    Ok((line, points.into_iter().map(|(_, place)| (axis.line, place)).collect()))
 }
 
 /// Reads the blade of a file.
@@ -293,13 +294,16 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
         }
     };
     let axis = axis.ok_or_else(|| format!("{name}: the blade has no `reference_axis`"))?;
+    let at = twist.line;
     let twist: Vec<[f64; 2]> = twist
         .grid
         .iter()
         .zip(&twist.values)
         .map(|(u, angle)| [*u, if degrees { angle.to_radians() } else { *angle }])
         .collect();
-    let line = line(axis, &twist, name)?;
+    let (line, points) = line(axis, &twist, name)?;
+    let twist = twist.iter().map(|[u, angle]| (at, *u, angle.to_degrees())).collect();
+    let keypoints = Keypoints { name: name.to_owned(), points, twist };
     let mut cautions = Vec::new();
     let mu = of
         .at(&["structural_damping", "mu"])
@@ -352,5 +356,6 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
             100.0 * exchanged
         ));
     }
-    Raw { name, convention: &WINDIO, line, rows, damping, cautions, notes: Vec::new() }.deck()
+    let (notes, silent) = (Vec::new(), Silent::default());
+    Raw { name, convention: &WINDIO, line, keypoints, rows, damping, cautions, notes, silent }.deck()
 }
