@@ -93,12 +93,15 @@ fn a_slip_anywhere_in_a_deck_is_told() {
     );
 }
 
+/// A name, what its caution has, and how it is made.
+type Slip<'a> = (&'a str, &'a [&'a str], &'a dyn Fn(&mut Plain));
+
 /// The caution that names a slip, at its line.
 #[test]
 fn a_slip_is_told_at_its_line_with_its_number() {
     let of = Plain::of(0);
     let last = of.eta.len() - 1;
-    let cases: [(&str, &[&str], &dyn Fn(&mut Plain)); 12] = [
+    let cases: [Slip<'_>; 12] = [
         ("mass of the tip", &["station 26 (eta 1)", "speed of waves", "M33 comes to"], &|d| {
             (0..3).for_each(|k| d.mass[last][k][k] *= 10.0)
         }),

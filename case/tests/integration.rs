@@ -32,6 +32,7 @@ mod restart;
 mod rotor;
 mod scales;
 mod section_forces;
+mod shafts;
 mod short_features;
 mod short_in_space;
 mod space;
