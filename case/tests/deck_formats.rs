@@ -256,7 +256,7 @@ fn tables_give_matrices_or_centres() {
     for (text, says) in [
         (centres.replace("GA-flap", "GA"), "a column `GA`"),
         (centres.replace("x,mass,", "x [kg],mass,"), "`kg` is a unit of"),
-        (centres.replace("\n10,", "\n-10,"), "must begin at 0"),
+        (centres.replace("\n10,", "\n-10,"), "line 3 of f: x = -10 m comes behind 0 m"),
         (centres.replace("900", "-900"), "K11 = -"),
         (centres.replacen("900", "inf", 1), "line 2 of f: `inf` under `EA [MN]` is not a number"),
         (centres.replace("tension-y", "tensiony2"), "a column `tensiony2` (did you mean `tension-y`?)"),

@@ -230,3 +230,50 @@ fn nothing_is_said_of_a_stiffness_that_is_not_in_the_file() {
     let other = |text: &&String| !text.contains("says no axial stiffness");
     assert_eq!(deck.cautions.iter().filter(other).collect::<Vec<_>>(), Vec::<&String>::new());
 }
+
+/// Numbers that no structure has, and files that end early or begin late, are refused at their line, with few digits.
+#[test]
+fn what_cannot_be_is_refused_at_its_line_with_few_digits() {
+    let of = Plain::of(0);
+    let cases: [Slip<'_>; 5] = [
+        ("mu", &["line 9 of blade.dat: mu3 = 1e300 s"], &|d| d.mu[2] = 1e300),
+        ("x", &["line 10 of primary.dat: kp_xr = 1.0000e300"], &|d| d.keypoints[2][0] = 1e300),
+        ("twist", &["line 10 of primary.dat: initial_twist = -1.0000e300"], &|d| d.keypoints[2][3] = -1e300),
+        ("z", &["line 57 of primary.dat: kp_zr"], &|d| d.keypoints[49][2] = 1e300),
+        ("M33", &["line 21: M33 = 1.0000e300"], &|d| (0..3).for_each(|k| d.mass[0][k][k] = 1e300)),
+    ];
+    for (name, says, change) in cases {
+        let mut broken = of.clone();
+        change(&mut broken);
+        let message = broken.read().unwrap_err();
+        assert!(message.contains(says[0]) && message.len() < 250, "{name}: {message}");
+    }
+    let [primary, blade] = of.texts();
+    let lines: Vec<&str> = blade.lines().take(40).collect();
+    let cut = lines.join("\n");
+    let files = [("primary.dat", primary.as_bytes()), ("blade.dat", cut.as_bytes())];
+    let message = super::decks::read(&files).unwrap_err();
+    assert!(message.contains("line 40 of blade.dat: the file ends"), "{message}");
+    let row = |x: f64| format!("{x},600,1e10,4e9,1e10,1.5e10\n");
+    for (rows, says) in [
+        ([1.0, 2.0, 3.0], "line 2 of f: the rows run from x = 1 m"),
+        ([0.0, 2.0, 1.0], "line 4 of f: x = 1 m comes behind 2 m"),
+        ([3.0, 2.0, 0.0], "line 3 of f: x = 2 m comes behind 3 m"),
+        ([0.0, 2.0, 1e300], "line 4 of f: x = 1.0000e300 is beyond"),
+    ] {
+        let message = csv(&format!("{TABLE}{}", rows.map(row).concat())).unwrap_err();
+        assert!(message.contains(says), "{message}");
+    }
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/blades");
+    let text = std::fs::read_to_string(folder.join("IEA_15MW_RWT_Blade_st_FPM.st")).unwrap();
+    for (from, to, says) in [
+        ("-6.0000870286029e+00", "-1e300", "line 6 of f: pitch = -1.0000e300°"),
+        ("1.1619906487403e-04", "-1e300", "line 6 of f: x_cg = -1.0000e300"),
+    ] {
+        assert!(text.contains(from));
+        let broken = text.replacen(from, to, 1);
+        let find = |_: &str| Ok(Arc::from(broken.as_bytes()));
+        let message = deck::read(&find, "f", Format::Hawc2 { set: None, subset: None }).unwrap_err();
+        assert!(message.contains(says), "{message}");
+    }
+}

@@ -7,7 +7,7 @@
 //! [silent](Silent) on. For these its sections have GA = EA, GJ the smaller EI, and the radii of gyration √(EI/EA).
 
 use super::rows::{Convention, Row};
-use super::{Deck, Keypoints, Line, Raw, Silent};
+use super::{Deck, FARTHEST, Keypoints, Line, Raw, Silent, TURNED, within};
 use crate::files::columns::{self, Column, column};
 use crate::units::{
     ANGLE, AXIAL_STIFFNESS, BENDING_STIFFNESS, COUPLING_STIFFNESS, LENGTH, MASS_PER_LENGTH, ROTARY_INERTIA,
@@ -175,16 +175,22 @@ fn deck(name: &str, made: Vec<Given>, silent: Silent, cautions: Vec<String>) -> 
     let [first, .., last] = &made[..] else {
         return Err(format!("{name} has {} rows, and a blade two or more", made.len()));
     };
-    let (from, to) = (first.values[0], last.values[0]);
-    if !(from == 0.0 && to > 0.0) {
-        return Err(format!(
-            "the rows of {name} run from x = {from} m to {to} m, and must begin at 0 and ascend"
-        ));
+    for of in &made {
+        let lengths = [("x", of.values[0]), ("mass-y", of.values[2]), ("mass-z", of.values[3])];
+        lengths.into_iter().try_for_each(|(what, value)| within(of.line, name, what, value, FARTHEST))?;
+        within(of.line, name, "twist in degrees", of.values[8].to_degrees(), TURNED)?;
     }
+    let (from, to) = (first.values[0], last.values[0]);
     if let Some(pair) = made.windows(2).find(|pair| !(pair[0].values[0] <= pair[1].values[0])) {
         return Err(format!(
             "line {} of {name}: x = {} m comes behind {} m; rows ascend",
             pair[1].line, pair[1].values[0], pair[0].values[0]
+        ));
+    }
+    if !(from == 0.0 && to > 0.0) {
+        return Err(format!(
+            "line {} of {name}: the rows run from x = {from} m to {to} m, and must begin at 0 and ascend",
+            first.line
         ));
     }
     let twist: Vec<[f64; 2]> = made.iter().map(|of| [of.values[0], -of.values[8]]).collect();

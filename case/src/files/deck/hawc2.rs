@@ -17,7 +17,7 @@
 
 use super::fortran::{Text, words};
 use super::rows::{Convention, Row};
-use super::{Deck, Keypoints, Line, Raw, Silent};
+use super::{Deck, FARTHEST, Keypoints, Line, Raw, Silent, within};
 use flexion::section::Matrix6;
 use std::fmt::Write;
 
@@ -165,7 +165,8 @@ pub(super) fn read(
     let length = last - first;
     if !(length > 0.0 && first.abs() <= ROOT * length) {
         return Err(format!(
-            "the rows of {name} run from r = {first} m to {last} m, and must begin at 0 and ascend"
+            "line {} of {name}: the rows run from r = {first} m to {last} m, and must begin at 0 and ascend",
+            rows[0].0
         ));
     }
     let mut made: Vec<Row> = Vec::with_capacity(count);
@@ -181,6 +182,11 @@ pub(super) fn read(
             return Err(format!("line {line} of {name}: m = {} kg/m must be positive", v[1]));
         }
         let full = v.len() == COLUMNS[0];
+        let centres = if full { [("x_e", v[7]), ("y_e", v[8])] } else { [("x_e", v[17]), ("y_e", v[18])] };
+        let lengths = [("r", v[0]), ("x_cg", v[2]), ("y_cg", v[3]), ("ri_x", v[4]), ("ri_y", v[5])];
+        for (what, value) in lengths.into_iter().chain(centres) {
+            within(*line, name, what, value, FARTHEST)?;
+        }
         let (pitch, elastic) = if full { (v[6], [v[7], v[8]]) } else { (v[16], [v[17], v[18]]) };
         if !(pitch.abs() <= REVOLUTION) {
             return Err(format!(

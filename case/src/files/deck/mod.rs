@@ -188,6 +188,20 @@ pub fn read(find: Find<'_>, name: &str, format: Format) -> Result<Deck, String> 
     }
 }
 
+/// Largest coordinate \[m\] and twist \[°\] that is read.
+const FARTHEST: f64 = 1e6;
+const TURNED: f64 = 3.6e4;
+
+/// Refuses a number that is no place, or no angle, of a structure.
+fn within(line: usize, name: &str, what: &str, value: f64, most: f64) -> Result<(), String> {
+    if value.abs() <= most {
+        return Ok(());
+    }
+    Err(format!(
+        "line {line} of {name}: {what} = {value:.4e} is beyond ±{most:e}: is its exponent, or are its digits, wrong?"
+    ))
+}
+
 /// A deck in the axes and the order of its format.
 struct Raw<'a> {
     /// The file of the stations.

@@ -153,7 +153,10 @@ impl Row {
         let section = Matrices { stiffness, damping: [[0.0; 6]; 6], mass };
         match section.fault() {
             None => Ok(section),
-            Some(fault) => Err(format!("{}: {fault}", self.at(name, c, 0, 0))),
+            // The lines of both matrices begin with the place of the first row.
+            Some(fault) => {
+                Err(format!("{}: {fault}", self.at(name, c, usize::from(fault.contains("mass")), 0)))
+            }
         }
     }
 

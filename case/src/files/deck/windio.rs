@@ -7,6 +7,7 @@
 //! Grids are fractions of the parameter of `reference_axis`, whose coordinates are natural cubic splines of it. Twist is that of BeamDyn, in degrees
 //! from version 2 on and in radians before.
 
+use super::beamdyn::LONGEST;
 use super::fortran::decoded;
 use super::rows::{BEAMDYN, Convention, Row};
 use super::yaml::{self, Node};
@@ -315,8 +316,11 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
                 .map_err(|mu| format!("{name}: `mu` has {} numbers and not six", mu.len()))
         })
         .transpose()?;
-    if let Some(mu) = damping.iter().flatten().find(|mu| **mu < 0.0) {
-        return Err(format!("{name}: `mu` has a negative value, {mu} s"));
+    if let Some(mu) = damping.iter().flatten().find(|mu| !(0.0..=LONGEST).contains(*mu)) {
+        let line = of.at(&["structural_damping", "mu"]).map_or(of.line, |mu| mu.line);
+        return Err(format!(
+            "line {line} of {name}: `mu` has a negative value or one beyond {LONGEST:e} s, {mu:e} s"
+        ));
     }
     let damping = damping.filter(|mu| mu.iter().any(|mu| *mu > 0.0));
     if damping.is_none() {
