@@ -253,7 +253,10 @@ fn what_cannot_be_is_refused_at_its_line_with_few_digits() {
     let cut = lines.join("\n");
     let files = [("primary.dat", primary.as_bytes()), ("blade.dat", cut.as_bytes())];
     let message = super::decks::read(&files).unwrap_err();
-    assert!(message.contains("line 39 of blade.dat: the file ends before the place of station 3 of 26"), "{message}");
+    assert!(
+        message.contains("line 39 of blade.dat: the file ends before the place of station 3 of 26"),
+        "{message}"
+    );
     let row = |x: f64| format!("{x},600,1e10,4e9,1e10,1.5e10\n");
     for (rows, says) in [
         ([1.0, 2.0, 3.0], "line 2 of f: the rows run from x = 1 m"),

@@ -4,7 +4,7 @@
 //! alternating signs. In ten published blades and in 200 drawn at random there is none, and neighbouring pieces of a line differ by at most 3°.
 
 use super::line::Line;
-use super::neighbours::{is_smooth, leaving};
+use super::smooth::{is_smooth, leaving};
 use flexion::linalg::Vec3;
 
 /// The points and the rows of the twist, each with its line in the file.

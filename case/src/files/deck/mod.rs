@@ -15,6 +15,7 @@
 //! | `rows` | matrices of a format into those of a section, and what makes none |
 //! | `plausible` | cautions by physics |
 //! | `measures` | what a station is like |
+//! | `smooth` | values that leave their neighbours |
 //! | `neighbours` | stations out of line with those beside them |
 //! | `keypoints` | the points of the line, and its twist, as a file has them |
 
@@ -29,6 +30,7 @@ mod measures;
 mod neighbours;
 mod plausible;
 mod rows;
+mod smooth;
 mod windio;
 mod yaml;
 
