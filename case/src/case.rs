@@ -121,8 +121,22 @@ pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Ca
     };
     match parts() {
         Some(case) if found.0.0.is_empty() => Ok(case),
-        _ => Err(found.0),
+        _ => {
+            if let (Some(fault), Some(caution)) = (found.0.0.first_mut(), suspected(&cautions.take())) {
+                let help = fault.help.take().map_or_else(String::new, |help| format!("{help}; "));
+                fault.help = Some(format!("{help}{caution}"));
+            }
+            Err(found.0)
+        }
     }
+}
+
+/// What else may be the cause where something fails: the cautions of the case, in a sentence.
+pub(super) fn suspected(cautions: &[String]) -> Option<String> {
+    let (first, more) = cautions.split_first()?;
+    let intro = if more.is_empty() { "a caution of the case" } else { "cautions of the case" };
+    let more: String = more.iter().map(|caution| format!("; {caution}")).collect();
+    Some(format!("{intro} may name the cause: {first}{more}"))
 }
 
 /// What `[run]` asks of the accuracy.

@@ -1,5 +1,6 @@
 //! The path of equilibria of a case at rest as its loads grow.
 
+use super::case::suspected;
 use super::problem::Problems;
 use super::reading::Reading;
 use super::run::error::much;
@@ -48,7 +49,9 @@ impl Reading {
             path.cautions.extend(caution);
         }
         if let (Some(end), []) = (&path.end, path.points.as_slice()) {
-            return Err(StaticsError::NotFound(end.clone()));
+            let caution =
+                suspected(&self.case.cautions).map_or_else(String::new, |caution| format!("\n{caution}"));
+            return Err(StaticsError::NotFound(format!("{end}{caution}")));
         }
         if path.end.is_none() && path.points.iter().all(|point| point.values == path.points[0].values) {
             return Err(StaticsError::NotFound(NO_LOAD.to_owned()));

@@ -14,6 +14,7 @@ impl Case {
     pub fn unused_by_run(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
         cautions.extend(self.space().filter(|space| !space.flat).into_iter().flat_map(Space::torsion));
+        cautions.extend(self.space().into_iter().flat_map(|space| space.spinning(self.duration)));
         cautions.extend(self.rotates_at().into_iter().flat_map(|speed| self.without_trapeze(speed)));
         let Some(beam) = self.hub_beam() else { return cautions };
         if beam.section.is_blade {
@@ -30,6 +31,7 @@ impl Case {
     pub fn unused_by_modes(&self) -> Vec<String> {
         let mut cautions = self.cautions.clone();
         cautions.extend(self.space().into_iter().flat_map(Space::torsion));
+        cautions.extend(self.space().into_iter().flat_map(|space| space.spinning(self.duration)));
         let Some(beam) = self.hub_beam() else { return cautions };
         if beam.section.is_blade {
             cautions.push(

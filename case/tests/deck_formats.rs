@@ -256,7 +256,7 @@ fn tables_give_matrices_or_centres() {
     for (text, says) in [
         (centres.replace("GA-flap", "GA"), "a column `GA`"),
         (centres.replace("x,mass,", "x [kg],mass,"), "`kg` is a unit of"),
-        (centres.replace("\n10,", "\n-10,"), "must begin at 0"),
+        (centres.replace("\n10,", "\n-10,"), "line 3 of f: x = -10 m comes behind 0 m"),
         (centres.replace("900", "-900"), "K11 = -"),
         (centres.replacen("900", "inf", 1), "line 2 of f: `inf` under `EA [MN]` is not a number"),
         (centres.replace("tension-y", "tensiony2"), "a column `tensiony2` (did you mean `tension-y`?)"),
@@ -283,7 +283,7 @@ const OLDER: &str = "# a blade\nStation [m], BMassDen, EA, EI_flap, EdgStff, Str
 #[test]
 fn what_a_table_leaves_out_it_is_silent_on() {
     let deck = read(OLDER, Format::Csv).unwrap();
-    assert_eq!(deck.silent, deck::Silent { shear: true, torsion: true, inertia: [true; 3] });
+    assert_eq!(deck.silent, deck::Silent { axial: false, shear: true, torsion: true, inertia: [true; 3] });
     let c = deck.matrices(1.0).condensed();
     assert_eq!([c[0][0], c[2][2], c[3][3], deck.matrices(1.0).mass[0][0]], [2e6, 300.0, 400.0, 1.0]);
     assert_eq!(deck.inertia(1.0), [0.0; 3]);

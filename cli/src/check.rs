@@ -1,5 +1,6 @@
 //! `flexion check`: validates a case and shows what would be run.
 
+use crate::run::Progress;
 use crate::screen::row;
 use crate::{Outcome, assembly, case, screen};
 use flexion::basis::Basis;
@@ -54,7 +55,10 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
     let incomplete = reading.missing_for_run().err();
     if incomplete.is_none() {
         // What only the start shows: contacts that begin inside obstacles, an equilibrium that is not found.
-        reading.prepare()?;
+        let mut progress = Progress::new(case.duration);
+        let prepared = reading.prepare_watched(&mut |factor| progress.show_search(factor));
+        progress.finish();
+        prepared?;
     }
     let mut out = String::new();
     if !case.title.is_empty() {

@@ -170,11 +170,19 @@ impl Beam {
     pub fn leaves_out_torsion(&self) -> bool {
         let of = self.blade.resultants(0.5 * self.length);
         let differ = (of.chord_inertia - of.flap_inertia).abs() > 0.01 * (of.chord_inertia + of.flap_inertia);
-        differ
-            && !self.planar
-            && self.torsion
-            && !self.shear
-            && self.section.planar.resultants(0.5 * self.length).rotary_inertia == 0.0
+        differ && self.leaves_out_gyration()
+    }
+
+    /// Whether its rotary inertia in bending is left out, and that about its axis is not: half of the gyroscopic moment of a spin about it.
+    pub fn leaves_out_gyration(&self) -> bool {
+        let rotary = self.section.planar.resultants(0.5 * self.length).rotary_inertia;
+        !self.planar && self.torsion && !self.shear && rotary == 0.0
+    }
+
+    /// Larger radius of gyration √(EI/EA) \[m\] in the middle.
+    pub fn gyration(&self) -> f64 {
+        let of = self.blade.resultants(0.5 * self.length);
+        (of.chord_stiffness.max(of.flap_stiffness) / of.axial_stiffness).sqrt()
     }
 
     /// Stiffness and mass with shear at a station, of a section that says them.

@@ -13,7 +13,7 @@ mod restart;
 mod scene;
 pub(crate) mod variant;
 
-use super::case::Output;
+use super::case::{Output, suspected};
 use super::kinds::initial::Initial;
 use super::problem::Problems;
 use super::reading::{Live, Reading};
@@ -139,7 +139,15 @@ impl Reading {
         self.missing_for_run()?;
         let mut live = self.build()?;
         let mut state = live.system.initial();
-        let (history, unstable) = self.begin(live.system.as_mut(), &mut state, watch)?;
+        let (history, unstable) =
+            self.begin(live.system.as_mut(), &mut state, watch).map_err(|mut problems| {
+                if let (Some(problem), Some(caution)) =
+                    (problems.list.first_mut(), suspected(&self.case.cautions))
+                {
+                    problem.help.push(caution);
+                }
+                problems
+            })?;
         if history.is_none() {
             self.check_contacts(live.system.as_mut(), &state)?;
         }

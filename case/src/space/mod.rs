@@ -3,6 +3,7 @@
 mod mounted;
 mod named;
 mod placed;
+mod spinning;
 mod trapeze;
 
 use crate::blame::{Tables, blamed, leaves_the_plane};

@@ -87,7 +87,8 @@ impl Reading {
             stopped.fetch_or(!goes_on, Ordering::Relaxed);
             goes_on
         };
-        let mut campbell = campbell(system, finer, &plan, request.threads, &watched)?;
+        let mut campbell = campbell(system, finer, &plan, request.threads, &watched)
+            .map_err(|error| VibrationError::from(error).suspecting(case))?;
         keep_lowest(&mut campbell, request.count);
         let errors = campbell.branches.iter().enumerate().flat_map(|(number, branch)| {
             branch.points.iter().map(move |point| (number + 1, point.mode.rounding))

@@ -13,7 +13,7 @@ pub use modes::{FoundModes, ModesRequest};
 pub use place_stiffness::PlaceStiffness;
 pub use threads::campbell;
 
-use super::case::Case;
+use super::case::{Case, suspected};
 use super::problem::Problems;
 use super::reading::Reading;
 use flexion::analysis::campbell::{HubState, NoCampbell};
@@ -44,6 +44,16 @@ pub enum VibrationError {
 impl VibrationError {
     fn not_found(error: impl std::fmt::Display) -> VibrationError {
         VibrationError::NotFound(error.to_string())
+    }
+
+    /// With the cautions of the case, which may name the cause.
+    fn suspecting(self, case: &Case) -> VibrationError {
+        match (self, suspected(&case.cautions)) {
+            (VibrationError::NotFound(message), Some(caution)) => {
+                VibrationError::NotFound(format!("{message}\n{caution}"))
+            }
+            (error, _) => error,
+        }
     }
 }
 
@@ -81,14 +91,20 @@ impl Case {
         }
     }
 
-    /// The unit √(EI/ρAL⁴) of frequencies, by the section at the root of a beam on a hub.
+    /// The unit √(EI/ρAL⁴) of frequencies, by the section at the root of the one beam, EI that of bending along its height.
     ///
     /// # Errors
-    /// A system in space.
+    /// A system of several beams, or of none, and a deck.
     pub fn dimensionless(&self) -> Result<Frequencies, VibrationError> {
-        let resultants = self.hub_beam().map(|beam| (beam.length, beam.section.planar.resultants(0.0)));
+        let of_hub = self.hub_beam().map(|beam| (beam.length, &beam.section));
+        let of_space = self.space().and_then(|space| match &space.beams[..] {
+            [(beam, _)] if beam.section.deck.is_none() => Some((beam.length, &beam.section)),
+            _ => None,
+        });
+        let resultants =
+            of_hub.or(of_space).map(|(length, section)| (length, section.planar.resultants(0.0)));
         let (length, r) = resultants.ok_or_else(|| {
-            let message = "--dimensionless is for a beam on a hub: a system in space has no one section";
+            let message = "--dimensionless is for one beam whose section is no deck: a system of several has no one section";
             VibrationError::Request(message.to_owned())
         })?;
         Ok(Frequencies::dimensionless((r.mass * length.powi(4) / r.bending_stiffness).sqrt()))

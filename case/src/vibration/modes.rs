@@ -22,7 +22,7 @@ const STATIONS: u32 = 200;
 /// What is asked of the modes of a case.
 #[derive(Clone, Debug)]
 pub struct ModesRequest {
-    /// Speed of rotation \[rad/s\], zero or positive.
+    /// Speed of rotation \[rad/s\]; the frequencies are those of the speed with the other sign.
     pub speed: f64,
     /// Number of modes, the lowest.
     pub count: usize,
@@ -59,18 +59,15 @@ impl Reading {
     /// The modes of small vibrations about the equilibrium of the case in steady rotation, which replaces its motion.
     ///
     /// # Errors
-    /// [`VibrationError`]: a case with parts that do not rotate steadily, a speed below zero, no equilibrium or no modes.
+    /// [`VibrationError`]: a case with parts that do not rotate steadily, a speed that is not finite, no equilibrium or no modes.
     pub fn modes(&self, request: &ModesRequest) -> Result<FoundModes, VibrationError> {
         self.fits_modes()?;
         let (case, speed, units) = (&self.case, request.speed, &request.units);
-        if !(speed.is_finite() && speed >= 0.0) {
-            let given = units.speed.text(speed);
-            return Err(VibrationError::Request(format!(
-                "the speed is {given} and must be zero or positive"
-            )));
+        if !speed.is_finite() {
+            return Err(VibrationError::Request("the speed must be a finite number".to_owned()));
         }
         let hub = case.hub_state(request.free_hub)?;
-        let mut found = compute(case, request, hub)?;
+        let mut found = compute(case, request, hub).map_err(|error| error.suspecting(case))?;
         found.warnings.extend(case.without_trapeze(speed));
         if let Some(given) = case.rotates_at().filter(|_| speed == 0.0) {
             let given = units.speed.text(given.abs());
@@ -92,7 +89,7 @@ impl Reading {
         let largest = found.modes.modes.iter().enumerate().map(relative).find(|(_, error)| *error > COARSE);
         found.warnings.extend(largest.map(|(number, error)| coarse(number, None, error)));
         found.about = match case.space().map(|space| &space.rotation) {
-            Some(Ok(rotation)) if speed > 0.0 => {
+            Some(Ok(rotation)) if speed != 0.0 => {
                 format!("at {} about {}", units.speed.text(speed), rotation.described(hub == HubState::Free))
             }
             Some(_) if hub == HubState::Free => "about the equilibrium at rest, free hub".to_owned(),
@@ -143,7 +140,7 @@ fn about_motions(case: &Case, speed: f64, modes: &Modes) -> Vec<String> {
 /// The modes on the mesh of the case.
 fn compute(case: &Case, request: &ModesRequest, hub: HubState) -> Result<FoundModes, VibrationError> {
     let speed = request.speed;
-    let (mut system, mut warnings) = case.vibrates(speed > 0.0)?;
+    let (mut system, mut warnings) = case.vibrates(speed != 0.0)?;
     let mut state = State::zeros(system.size(), 0.0);
     if case.space().is_some() {
         state = system.initial();

@@ -6,7 +6,7 @@
 
 use super::fortran::{Text, number};
 use super::rows::{BEAMDYN, Row};
-use super::{Deck, Find, Line, Raw};
+use super::{Deck, FARTHEST, Find, Keypoints, Line, Raw, Silent, TURNED, within};
 use flexion::linalg::Vec3;
 use flexion::section::Matrix6;
 use std::fmt::Write;
@@ -27,6 +27,8 @@ const SETTINGS: [&str; 11] = [
 ];
 /// Distance of the first and the last station from 0 and 1.
 const ENDS: f64 = 1e-4;
+/// Longest damping time \[s\].
+pub(super) const LONGEST: f64 = 1e6;
 
 /// Reads the deck of a primary file and the blade file that it names.
 pub(super) fn read(find: Find<'_>, name: &str) -> Result<Deck, String> {
@@ -51,7 +53,13 @@ pub(super) fn read(find: Find<'_>, name: &str) -> Result<Deck, String> {
     let twist: Vec<[f64; 2]> =
         points.iter().map(|(_, place, twist)| [place[2], twist.to_radians()]).collect();
     let line = Line::through(&places, &twist).map_err(|error| format!("{name}: {error}"))?;
-    Raw { name: &file, convention: &BEAMDYN, line, rows, damping, cautions, notes }.deck()
+    let keypoints = Keypoints {
+        name: name.to_owned(),
+        points: points.iter().map(|(line, place, _)| (*line, *place)).collect(),
+        twist: points.iter().map(|(line, place, twist)| (*line, place[2], *twist)).collect(),
+    };
+    let silent = Silent::default();
+    Raw { name: &file, convention: &BEAMDYN, line, keypoints, rows, damping, cautions, notes, silent }.deck()
 }
 
 /// The name of the blade file that the text of a primary file names.
@@ -138,6 +146,14 @@ fn keypoints(text: &Text<'_>, cautions: &mut Vec<String>) -> Result<Vec<(usize, 
             ));
         }
         let [x, y, z, twist] = found.values[..] else { continue };
+        for (value, most, what) in [
+            (x, FARTHEST, "kp_xr"),
+            (y, FARTHEST, "kp_yr"),
+            (z, FARTHEST, "kp_zr"),
+            (twist, TURNED, "initial_twist"),
+        ] {
+            within(found.line, name, what, value, most)?;
+        }
         if let Some((_, before, _)) = points.last()
             && !(z > before[2])
         {
@@ -174,9 +190,9 @@ fn stations(
     }
     let mut at = line + 1;
     let found = text.numbers(&mut at, 6, "mu1 to mu6")?;
-    if let Some(k) = found.values.iter().position(|mu| *mu < 0.0) {
+    if let Some(k) = found.values.iter().position(|mu| !(0.0..=LONGEST).contains(mu)) {
         return Err(format!(
-            "line {} of {name}: mu{} = {} s is negative",
+            "line {} of {name}: mu{} = {:e} s is negative or longer than {LONGEST:e} s",
             found.line,
             k + 1,
             found.values[k]

@@ -7,7 +7,7 @@
 //! [silent](Silent) on. For these its sections have GA = EA, GJ the smaller EI, and the radii of gyration √(EI/EA).
 
 use super::rows::{Convention, Row};
-use super::{Deck, Line, Raw, Silent};
+use super::{Deck, FARTHEST, Keypoints, Line, Raw, Silent, TURNED, within};
 use crate::files::columns::{self, Column, column};
 use crate::units::{
     ANGLE, AXIAL_STIFFNESS, BENDING_STIFFNESS, COUPLING_STIFFNESS, LENGTH, MASS_PER_LENGTH, ROTARY_INERTIA,
@@ -136,7 +136,7 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
         let rows = columns::with_lines(&text, name, &CENTRES)?;
         let (line, twist) = most(&mut rows.iter().map(|(line, row)| (*line, row[8]))).unwrap_or_default();
         twisted(line, twist)?;
-        return of_centres(name, rows, cautions);
+        return of_centres(name, rows, cautions, false);
     }
     let full = |(line, row): (usize, [f64; 30])| {
         let (mut stiffness, mut values) = ([[0.0; 6]; 6], row[9..].iter());
@@ -152,14 +152,16 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
     deck(name, made, Silent::default(), cautions)
 }
 
-/// The deck of the rows of a table of centres, each with its line.
+/// The deck of the rows of a table of centres, each with its line; `axial` is whether the file says no axial stiffness.
 pub(super) fn of_centres(
     name: &str,
     rows: Vec<(usize, [f64; 19])>,
     cautions: Vec<String>,
+    axial: bool,
 ) -> Result<Deck, String> {
     let none = |i: usize| rows.iter().all(|(_, row)| row[i] == 0.0);
     let silent = Silent {
+        axial,
         shear: none(10) && none(11),
         torsion: none(12),
         inertia: [none(4) && none(5) && none(7), none(4), none(5)],
@@ -173,23 +175,31 @@ fn deck(name: &str, made: Vec<Given>, silent: Silent, cautions: Vec<String>) -> 
     let [first, .., last] = &made[..] else {
         return Err(format!("{name} has {} rows, and a blade two or more", made.len()));
     };
-    let (from, to) = (first.values[0], last.values[0]);
-    if !(from == 0.0 && to > 0.0) {
-        return Err(format!(
-            "the rows of {name} run from x = {from} m to {to} m, and must begin at 0 and ascend"
-        ));
+    for of in &made {
+        let lengths = [("x", of.values[0]), ("mass-y", of.values[2]), ("mass-z", of.values[3])];
+        lengths.into_iter().try_for_each(|(what, value)| within(of.line, name, what, value, FARTHEST))?;
+        within(of.line, name, "twist in degrees", of.values[8].to_degrees(), TURNED)?;
     }
+    let (from, to) = (first.values[0], last.values[0]);
     if let Some(pair) = made.windows(2).find(|pair| !(pair[0].values[0] <= pair[1].values[0])) {
         return Err(format!(
             "line {} of {name}: x = {} m comes behind {} m; rows ascend",
             pair[1].line, pair[1].values[0], pair[0].values[0]
         ));
     }
+    if !(from == 0.0 && to > 0.0) {
+        return Err(format!(
+            "line {} of {name}: the rows run from x = {from} m to {to} m, and must begin at 0 and ascend",
+            first.line
+        ));
+    }
     let twist: Vec<[f64; 2]> = made.iter().map(|of| [of.values[0], -of.values[8]]).collect();
     let line = Line::straight(to, &twist)?;
     let rows = made.iter().enumerate().map(|(i, of)| row(i, of)).collect();
-    let raw = Raw { name, convention: &CSV, line, rows, damping: None, cautions, notes: Vec::new() };
-    Ok(Deck { silent, ..raw.deck()? })
+    let twist = made.iter().map(|of| (of.line, of.values[0], of.values[8].to_degrees())).collect();
+    let keypoints = Keypoints { name: name.to_owned(), points: Vec::new(), twist };
+    let (damping, notes) = (None, Vec::new());
+    Raw { name, convention: &CSV, line, keypoints, rows, damping, cautions, notes, silent }.deck()
 }
 
 /// A row of a table of centres.

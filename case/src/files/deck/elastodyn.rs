@@ -90,7 +90,7 @@ pub(super) fn read(bytes: &[u8], name: &str, length: Option<f64>) -> Result<Deck
             damped.join(", ")
         ));
     }
-    let deck = csv::of_centres(name, rows, cautions)?;
+    let deck = csv::of_centres(name, rows, cautions, !stretches)?;
     if stretches {
         return Ok(deck);
     }

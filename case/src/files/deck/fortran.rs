@@ -96,12 +96,15 @@ impl<'a> Text<'a> {
     pub fn numbers(&self, at: &mut usize, count: usize, what: &str) -> Result<Numbers, String> {
         let name = self.name;
         let Some(first) = self.next_with_number(*at) else {
-            return Err(format!("{name} ends before {what}"));
+            return Err(format!("line {} of {name}: the file ends before {what}", self.len()));
         };
         let (mut values, mut surplus, mut line) = (Vec::with_capacity(count), 0, first);
         while values.len() < count {
             if line > self.len() {
-                return Err(format!("{name} ends in {what}, which begins in line {first}"));
+                return Err(format!(
+                    "line {} of {name}: the file ends in {what}, which begins in line {first}",
+                    self.len()
+                ));
             }
             for word in words(self.line(line)) {
                 match number(&word) {

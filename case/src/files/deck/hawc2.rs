@@ -17,7 +17,7 @@
 
 use super::fortran::{Text, words};
 use super::rows::{Convention, Row};
-use super::{Deck, Line, Raw};
+use super::{Deck, FARTHEST, Keypoints, Line, Raw, Silent, within};
 use flexion::section::Matrix6;
 use std::fmt::Write;
 
@@ -31,6 +31,8 @@ pub(super) static HAWC2: Convention = Convention {
 
 /// Columns of full matrices and of the classical form.
 const COLUMNS: [usize; 2] = [30, 19];
+/// Largest `pitch` \[°\].
+const REVOLUTION: f64 = 360.0;
 /// Distance of the first station from the root over the length.
 const ROOT: f64 = 1e-4;
 
@@ -163,7 +165,8 @@ pub(super) fn read(
     let length = last - first;
     if !(length > 0.0 && first.abs() <= ROOT * length) {
         return Err(format!(
-            "the rows of {name} run from r = {first} m to {last} m, and must begin at 0 and ascend"
+            "line {} of {name}: the rows run from r = {first} m to {last} m, and must begin at 0 and ascend",
+            rows[0].0
         ));
     }
     let mut made: Vec<Row> = Vec::with_capacity(count);
@@ -179,7 +182,17 @@ pub(super) fn read(
             return Err(format!("line {line} of {name}: m = {} kg/m must be positive", v[1]));
         }
         let full = v.len() == COLUMNS[0];
+        let centres = if full { [("x_e", v[7]), ("y_e", v[8])] } else { [("x_e", v[17]), ("y_e", v[18])] };
+        let lengths = [("r", v[0]), ("x_cg", v[2]), ("y_cg", v[3]), ("ri_x", v[4]), ("ri_y", v[5])];
+        for (what, value) in lengths.into_iter().chain(centres) {
+            within(*line, name, what, value, FARTHEST)?;
+        }
         let (pitch, elastic) = if full { (v[6], [v[7], v[8]]) } else { (v[16], [v[17], v[18]]) };
+        if !(pitch.abs() <= REVOLUTION) {
+            return Err(format!(
+                "line {line} of {name}: pitch = {pitch:.4e}° is more than a revolution; it turns the axes of bending and is an angle in degrees"
+            ));
+        }
         let pitch = pitch.to_radians();
         let mut k = [[0.0; 6]; 6];
         let shear = if full {
@@ -215,7 +228,18 @@ pub(super) fn read(
     let notes = vec![format!(
         "{name} has no line and no twist, which stand in another file (`c2_def`): the blade is straight along the half chord; and no damping"
     )];
-    Raw { name, convention: &HAWC2, line, rows: made, damping: None, cautions: Vec::new(), notes }.deck()
+    Raw {
+        name,
+        convention: &HAWC2,
+        line,
+        keypoints: Keypoints { name: name.to_owned(), ..Keypoints::default() },
+        rows: made,
+        damping: None,
+        cautions: Vec::new(),
+        notes,
+        silent: Silent::default(),
+    }
+    .deck()
 }
 
 /// A st file of one set with full matrices, of a deck.

@@ -178,14 +178,4 @@ impl Line {
         breaks.dedup_by(|a, b| *a - *b <= 1e-9 * length);
         breaks
     }
-
-    /// Largest magnitude of the twist \[rad\].
-    pub(super) fn largest_twist(&self) -> f64 {
-        self.twist.iter().fold(0.0, |most, [_, angle]| most.max(angle.abs()))
-    }
-
-    /// Its points: parameter, place \[m\].
-    pub(super) fn points(&self) -> impl Iterator<Item = (f64, Vec3)> + '_ {
-        self.arcs.iter().map(|[u, _]| (*u, Vec3([0, 1, 2].map(|k| self.coordinates[k].value(*u)))))
-    }
 }

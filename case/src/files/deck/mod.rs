@@ -14,15 +14,23 @@
 //! | `line` | the reference line |
 //! | `rows` | matrices of a format into those of a section, and what makes none |
 //! | `plausible` | cautions by physics |
+//! | `measures` | what a station is like |
+//! | `smooth` | values that leave their neighbours |
+//! | `neighbours` | stations out of line with those beside them |
+//! | `keypoints` | the points of the line, and its twist, as a file has them |
 
 mod beamdyn;
 mod csv;
 mod elastodyn;
 mod fortran;
 mod hawc2;
+mod keypoints;
 mod line;
+mod measures;
+mod neighbours;
 mod plausible;
 mod rows;
+mod smooth;
 mod windio;
 mod yaml;
 
@@ -33,6 +41,7 @@ use std::sync::Arc;
 pub use beamdyn::write as write_beamdyn;
 pub(crate) use beamdyn::{blade_file, with_blade_file};
 pub use hawc2::write as write_hawc2;
+use keypoints::Keypoints;
 pub use line::Line;
 use rows::{Convention, Row};
 
@@ -63,6 +72,8 @@ pub struct Deck {
 /// What a table may leave out: numbers of an ordinary size stand for it in [`Deck::table`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Silent {
+    /// The axial stiffness.
+    pub axial: bool,
     /// The stiffness in shear.
     pub shear: bool,
     /// The stiffness in torsion.
@@ -179,23 +190,40 @@ pub fn read(find: Find<'_>, name: &str, format: Format) -> Result<Deck, String> 
     }
 }
 
+/// Largest coordinate \[m\] and twist \[°\] that is read.
+const FARTHEST: f64 = 1e6;
+const TURNED: f64 = 3.6e4;
+
+/// Refuses a number that is no place, or no angle, of a structure.
+fn within(line: usize, name: &str, what: &str, value: f64, most: f64) -> Result<(), String> {
+    if value.abs() <= most {
+        return Ok(());
+    }
+    Err(format!(
+        "line {line} of {name}: {what} = {value:.4e} is beyond ±{most:e}: is its exponent, or are its digits, wrong?"
+    ))
+}
+
 /// A deck in the axes and the order of its format.
 struct Raw<'a> {
     /// The file of the stations.
     name: &'a str,
     convention: &'static Convention,
     line: Line,
+    /// The points and the twist of the line as they stand in the file.
+    keypoints: Keypoints,
     rows: Vec<Row>,
     /// Damping times \[s\] in the order of the format.
     damping: Option<[f64; 6]>,
     cautions: Vec<String>,
     notes: Vec<String>,
+    silent: Silent,
 }
 
 impl Raw<'_> {
     /// The deck, or what is wrong with it.
     fn deck(self) -> Result<Deck, String> {
-        let Raw { name, convention, line, rows, damping, mut cautions, notes } = self;
+        let Raw { name, convention, line, keypoints, rows, damping, mut cautions, notes, silent } = self;
         let length = line.length();
         let damping = damping.map(|times| convention.place.map(|i| times[i]));
         let mut table = Vec::with_capacity(rows.len());
@@ -207,8 +235,9 @@ impl Raw<'_> {
             table.push((line.arc(row.place), section));
         }
         let places = rows.iter().map(|row| row.place).collect();
-        cautions.extend(plausible::cautions(name, convention, &line, &rows, &table, damping));
+        cautions.extend(keypoints.cautions(&line));
+        cautions.extend(plausible::cautions(name, convention, &line, &rows, &table, (damping, silent)));
         let table = MatrixTable::new(length, &table).map_err(|error| format!("{name}: {error}"))?;
-        Ok(Deck { length, line, table, damping, cautions, notes, silent: Silent::default(), places })
+        Ok(Deck { length, line, table, damping, cautions, notes, silent, places })
     }
 }

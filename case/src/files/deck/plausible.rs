@@ -5,7 +5,10 @@
 //! stiffer edgewise than flapwise; the shear stiffness of a section is smaller than EA, and GJ smaller than EI₂ + EI₃ but for laminates of
 //! ±45°, for an isotropic section it is at most half of that.
 
+use super::Silent;
 use super::line::Line;
+use super::measures::Measures;
+use super::neighbours::Stations;
 use super::rows::{Convention, Row};
 use flexion::section::Matrices;
 
@@ -13,6 +16,11 @@ use flexion::section::Matrices;
 const SPEED: [f64; 2] = [500.0, 13_000.0];
 /// Ratio of the larger radius of gyration of the stiffness anywhere to the length of the blade.
 const SLENDER: [f64; 2] = [5e-4, 0.1];
+/// Least ratio of a shear stiffness to EA over the larger part of the span: webs of a twentieth of the area and a fiftieth of the modulus.
+const SHEARED: f64 = 1e-3;
+/// Least modulus \[Pa\] and density \[kg/m³\] of the material, as [`Measures::least`] gives them: of shells of soft matter as thin as 10⁻⁴ of their radius, and
+/// of diamond and osmium.
+const MATERIAL: [[f64; 2]; 2] = [[1e3, 2e12], [0.01, 2.5e4]];
 /// Largest ratio of the radii of gyration of mass and stiffness, or its inverse.
 const RADII: f64 = 2.5;
 /// Largest ratio of GJ to the smaller bending stiffness over the larger part of the span: 1.5 for an isotropic strip.
@@ -21,73 +29,14 @@ const TWISTING: f64 = 5.0;
 const EDGEWISE: f64 = 0.8;
 /// Distance of the centre of mass or tension from the line over the larger radius of gyration.
 const OFFSET: f64 = 4.0;
-/// Factor by which one station may leave both its neighbours, and in torsion, where closed and open sections differ.
-const OUTLIER: [f64; 2] = [5.0, 30.0];
 /// Factor by which the tip may be stiffer than the root.
 const GROWING: f64 = 3.0;
 /// Difference of the polar moment of inertia from the sum of the other two, over that.
 const POLAR: f64 = 0.02;
-/// Lengths \[m\].
-const LENGTHS: [f64; 2] = [0.01, 300.0];
-/// Angles of the twist \[°\], and of a twist that may be in radians.
-const TWIST: [f64; 2] = [0.6, 90.0];
-/// Largest inclination of the line against z \[°\].
-const INCLINED: f64 = 70.0;
-/// Part of the length by which a line is swept that is not prebent.
-const SWEPT: f64 = 0.01;
 /// Largest damping ratio of the first flapwise bending.
 const DAMPED: f64 = 0.2;
 /// Difference of the two senses of damping times over √(Dᵢᵢ Dⱼⱼ).
 const BY_ROWS: f64 = 0.01;
-
-/// What a station is like.
-struct Measures {
-    axial: f64,
-    mass: f64,
-    shear: [f64; 2],
-    torsion: f64,
-    /// Edgewise and flapwise, about the tension centre and the centre of mass.
-    bending: [f64; 2],
-    inertia: [f64; 2],
-    /// Products of both.
-    products: [f64; 2],
-    /// Places of both centres along height and across.
-    centres: [[f64; 2]; 2],
-    polar: f64,
-}
-
-impl Measures {
-    fn of(section: &Matrices) -> Measures {
-        let (k, m) = (&section.stiffness, &section.mass);
-        let centre = |of: &[[f64; 6]; 6]| [-of[0][5] / of[0][0], of[0][4] / of[0][0]];
-        let about = |of: &[[f64; 6]; 6], [y, z]: [f64; 2]| {
-            [of[5][5] - of[0][0] * y * y, of[4][4] - of[0][0] * z * z].map(|x| x.max(0.0))
-        };
-        let centres = [centre(k), centre(m)];
-        let product = |of: &[[f64; 6]; 6], [y, z]: [f64; 2]| of[4][5] + of[0][0] * y * z;
-        Measures {
-            axial: k[0][0],
-            mass: m[0][0],
-            shear: [k[1][1], k[2][2]],
-            torsion: k[3][3],
-            bending: about(k, centres[0]),
-            inertia: about(m, centres[1]),
-            products: [product(k, centres[0]), product(m, centres[1])],
-            centres,
-            polar: m[3][3] / (m[4][4] + m[5][5]),
-        }
-    }
-
-    /// Larger and smaller principal radius of gyration: of the stiffness, and of the mass.
-    fn radii(&self) -> [[f64; 2]; 2] {
-        let of = |[a, b]: [f64; 2], product: f64, by: f64| {
-            let (mean, apart) = (0.5 * (a + b), (0.5 * (a - b)).hypot(product));
-            [mean + apart, mean - apart].map(|x| (x.max(0.0) / by).sqrt())
-        };
-        let [stiff, heavy] = self.products;
-        [of(self.bending, stiff, self.axial), of(self.inertia, heavy, self.mass)]
-    }
-}
 
 /// What is unlikely of the deck.
 pub(super) fn cautions(
@@ -96,9 +45,9 @@ pub(super) fn cautions(
     line: &Line,
     rows: &[Row],
     table: &[(f64, Matrices)],
-    damping: Option<[f64; 6]>,
+    (damping, silent): (Option<[f64; 6]>, Silent),
 ) -> Vec<String> {
-    let mut out = of_line(name, line);
+    let mut out = Vec::new();
     let length = line.length();
     let measures: Vec<Measures> = table.iter().map(|(_, section)| Measures::of(section)).collect();
     let all = || rows.iter().zip(&measures);
@@ -108,12 +57,12 @@ pub(super) fn cautions(
         all().filter(|(_, m)| !(excess(m) <= 0.0)).max_by(|a, b| excess(a.1).total_cmp(&excess(b.1)))
     };
 
-    if let Some((row, m)) = worst(&|m| (m.axial / m.mass).sqrt(), SPEED) {
+    if let Some((row, m)) = worst(&Measures::speed, SPEED).filter(|_| !silent.axial) {
         out.push(format!(
             "{}: a wave along the blade would have the speed √(EA/m) = {:.4} m/s, with EA from {} = {:.3e} N and m from {} = {:.3e} kg/m; \
              solids in use have {} to {} m/s: is one of both in other units, or is the order of the rows another?",
             row.at(name, c, 0, c.place[0]),
-            (m.axial / m.mass).sqrt(),
+            m.speed(),
             c.entry('K', 0, 0),
             m.axial,
             c.entry('M', 0, 0),
@@ -131,7 +80,7 @@ pub(super) fn cautions(
     for (k, which) in ["larger", "smaller"].into_iter().enumerate() {
         let (ratio, limits) = (|m: &Measures| m.radii()[1][k] / m.radii()[0][k], [1.0 / RADII, RADII]);
         let part = span(&|m| !(limits[0]..=limits[1]).contains(&ratio(m))) / length;
-        if let Some((row, m)) = worst(&ratio, limits).filter(|_| part > 0.5) {
+        if let Some((row, m)) = worst(&ratio, limits).filter(|_| part > 0.5 && !silent.axial) {
             let [stiff, heavy] = m.radii();
             out.push(format!(
                 "{}: the {which} radius of gyration of the mass is {:.4} m, from {}, {} and {}, and that of the stiffness {:.4} m, from \
@@ -150,7 +99,7 @@ pub(super) fn cautions(
         }
     }
     let largest = measures.iter().flat_map(|m| m.radii()[0]).fold(0.0, f64::max);
-    if !(SLENDER[0] * length..=SLENDER[1] * length).contains(&largest) {
+    if !silent.axial && !(SLENDER[0] * length..=SLENDER[1] * length).contains(&largest) {
         out.push(format!(
             "{name}: the largest radius of gyration √(EI/EA) is {largest:.4} m and the blade {length:.4} m long, a ratio of {:.2e} where \
              slender beams have {} to {}: is the length, or a stiffness, in other units?",
@@ -171,6 +120,47 @@ pub(super) fn cautions(
             c.entry('K', 0, 0),
             m.axial
         ));
+    }
+    for k in 0..2 {
+        let share = |m: &Measures| m.shear[k] / m.axial;
+        let part = span(&|m| !(share(m) >= SHEARED)) / length;
+        if let Some((row, m)) = worst(&share, [SHEARED, f64::INFINITY]).filter(|_| part > 0.5) {
+            out.push(format!(
+                "{}: {} = {:.3e} N is a shear stiffness and {:.1e} of the axial {} = {:.3e} N, as little over {:.0} % of the span; the webs of thin blades \
+                 have {SHEARED} of it and more: is it in other units?",
+                row.at(name, c, 0, c.place[k + 1]),
+                c.entry('K', k + 1, k + 1),
+                m.shear[k],
+                share(m),
+                c.entry('K', 0, 0),
+                m.axial,
+                100.0 * part
+            ));
+        }
+    }
+    for (k, (letter, what, unit)) in
+        [('K', "modulus EA/(4π i₁ i₂)", "Pa"), ('M', "density m/(4π i₁ i₂)", "kg/m³")].into_iter().enumerate()
+    {
+        let of = |m: &Measures| m.least()[k];
+        let part = span(&|m| !(MATERIAL[k][0]..=MATERIAL[k][1]).contains(&of(m))) / length;
+        if let Some((row, m)) = worst(&of, MATERIAL[k]).filter(|_| part > 0.5 && !silent.axial) {
+            out.push(format!(
+                "{}: a section with {} = {:.3e}, {} = {:.3e} and {} = {:.3e} about its centre, of which i₁ and i₂ are the radii of gyration, has the \
+                 {what} = {:.2e} {unit} or more, so over {:.0} % of the span, and no material has it: {:.0e} to {:.0e} {unit} are in use: is it in other \
+                 units?",
+                row.at(name, c, k, c.place[0]),
+                c.entry(letter, 0, 0),
+                [m.axial, m.mass][k],
+                c.entry(letter, 5, 5),
+                [m.bending, m.inertia][k][0],
+                c.entry(letter, 4, 4),
+                [m.bending, m.inertia][k][1],
+                of(m),
+                100.0 * part,
+                MATERIAL[k][0],
+                MATERIAL[k][1]
+            ));
+        }
     }
     let most = |m: &Measures| (m.bending[0] + m.bending[1]).min(TWISTING * m.radii()[0][1].powi(2) * m.axial);
     if span(&|m| m.torsion > most(m)) > 0.5 * length
@@ -238,7 +228,7 @@ pub(super) fn cautions(
             c.entry('M', 5, 5)
         ));
     }
-    outliers(name, c, rows, &measures, &mut out);
+    out.extend(Stations { name, convention: c, rows, measures: &measures, silent }.cautions(table));
     if let (Some(first), Some(last)) = (measures.first(), measures.last())
         && (0..2).all(|k| last.bending[k] > GROWING * first.bending[k])
     {
@@ -250,80 +240,6 @@ pub(super) fn cautions(
     }
     if let Some(times) = damping {
         damped(name, c, (rows, table, &measures), times, &mut out);
-    }
-    out
-}
-
-/// A matrix, the row of the diagonal entry that tells most of it, and its value.
-type Quantity = (char, usize, fn(&Measures) -> f64);
-
-/// One station that leaves both its neighbours.
-fn outliers(name: &str, c: &Convention, rows: &[Row], measures: &[Measures], out: &mut Vec<String>) {
-    let quantities: [Quantity; 7] = [
-        ('K', 0, |m| m.axial),
-        ('M', 0, |m| m.mass),
-        ('K', 5, |m| m.bending[0]),
-        ('K', 4, |m| m.bending[1]),
-        ('M', 5, |m| m.inertia[0]),
-        ('M', 4, |m| m.inertia[1]),
-        ('K', 3, |m| m.torsion),
-    ];
-    for (letter, i, of) in quantities {
-        for (k, three) in measures.windows(3).enumerate() {
-            let [before, here, after] = [of(&three[0]), of(&three[1]), of(&three[2])];
-            let most = OUTLIER[usize::from(i == 3)];
-            if here > most * before.max(after) || most * here < before.min(after) {
-                out.push(format!(
-                    "{}: {} belongs to {here:.3e}, and to {before:.3e} and {after:.3e} at the stations before and behind it: is a digit or an \
-                     exponent wrong?",
-                    rows[k + 1].at(name, c, usize::from(letter == 'M'), c.place[i]),
-                    c.entry(letter, i, i),
-                ));
-                break;
-            }
-        }
-    }
-}
-
-/// What is unlikely of a line.
-fn of_line(name: &str, line: &Line) -> Vec<String> {
-    let mut out = Vec::new();
-    let length = line.length();
-    if !(LENGTHS[0]..=LENGTHS[1]).contains(&length) {
-        out.push(format!("{name}: the line is {length:.4} m long; are its coordinates in metres?"));
-    }
-    let mut inclined = (0.0, 0);
-    let mut reach = [0.0_f64; 2];
-    let mut last = None;
-    for (number, (_, place)) in line.points().enumerate() {
-        if let Some(before) = last {
-            let step: flexion::linalg::Vec3 = place - before;
-            let angle = (step[2] / step.norm()).clamp(-1.0, 1.0).acos().to_degrees();
-            if angle > inclined.0 {
-                inclined = (angle, number + 1);
-            }
-        }
-        (0..2).for_each(|k| reach[k] = reach[k].max(place[k].abs()));
-        last = Some(place);
-    }
-    let (angle, number) = inclined;
-    if angle > INCLINED {
-        out.push(format!(
-            "{name}: before point {number} the line is inclined by {angle:.0}° against z, which goes along the blade: are x and y in the \
-             units of z?"
-        ));
-    }
-    if reach[0] == 0.0 && reach[1] > SWEPT * length {
-        out.push(format!(
-            "{name}: the line is swept by {:.3} m along y, edgewise, and not prebent along x: are both exchanged?",
-            reach[1]
-        ));
-    }
-    let twist = line.largest_twist().to_degrees();
-    if twist > TWIST[1] {
-        out.push(format!("{name}: the twist reaches {twist:.4}°: is it in another unit?"));
-    } else if twist > 0.0 && twist < TWIST[0] {
-        out.push(format!("{name}: the twist reaches only {twist:.4}°: were radians taken for degrees?"));
     }
     out
 }

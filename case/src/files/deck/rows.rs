@@ -76,6 +76,8 @@ pub(super) struct Row {
     pub mass: Matrix6,
 }
 
+/// Entries of the diagonal in SI units: EI of a carbon nanotube is 10⁻²⁴ N·m² and its moment of inertia 10⁻³³ kg·m.
+const ENGINEERED: [f64; 2] = [1e-40, 1e30];
 /// Difference of Kᵢⱼ and Kⱼᵢ, over the larger of both and over √(Kᵢᵢ Kⱼⱼ), up to which they count as equal: the digits of a file.
 const SAME: (f64, f64) = (1e-3, 1e-6);
 
@@ -104,6 +106,17 @@ impl Row {
                         at(i),
                         c.entry(letter, i, i),
                         of[i][i],
+                        MEANING[which][i]
+                    ));
+                }
+                if !(ENGINEERED[0]..=ENGINEERED[1]).contains(&of[i][i]) {
+                    return Err(format!(
+                        "{}: {} = {:.4e} is outside of {:e} to {:e} in SI units, where structures of all sizes are; it is {}",
+                        at(i),
+                        c.entry(letter, i, i),
+                        of[i][i],
+                        ENGINEERED[0],
+                        ENGINEERED[1],
                         MEANING[which][i]
                     ));
                 }
@@ -140,7 +153,10 @@ impl Row {
         let section = Matrices { stiffness, damping: [[0.0; 6]; 6], mass };
         match section.fault() {
             None => Ok(section),
-            Some(fault) => Err(format!("{}: {fault}", self.at(name, c, 0, 0))),
+            // The lines of both matrices begin with the place of the first row.
+            Some(fault) => {
+                Err(format!("{}: {fault}", self.at(name, c, usize::from(fault.contains("mass")), 0)))
+            }
         }
     }
 

@@ -7,10 +7,11 @@
 //! Grids are fractions of the parameter of `reference_axis`, whose coordinates are natural cubic splines of it. Twist is that of BeamDyn, in degrees
 //! from version 2 on and in radians before.
 
+use super::beamdyn::LONGEST;
 use super::fortran::decoded;
 use super::rows::{BEAMDYN, Convention, Row};
 use super::yaml::{self, Node};
-use super::{Deck, Line, Raw};
+use super::{Deck, Keypoints, Line, Raw, Silent};
 use flexion::linalg::Vec3;
 use flexion::profile::{End, Profile, Table};
 use flexion::section::Matrix6;
@@ -217,7 +218,7 @@ fn inertia(node: &Node, name: &str) -> Result<Matrices, String> {
 }
 
 /// The line through `reference_axis`, with the twist at rows (u, angle \[rad\]).
-fn line(axis: &Node, twist: &[[f64; 2]], name: &str) -> Result<Line, String> {
+fn line(axis: &Node, twist: &[[f64; 2]], name: &str) -> Result<(Line, Vec<(usize, Vec3)>), String> {
     let mut coordinates = Vec::with_capacity(3);
     for key in ["x", "y", "z"] {
         let found = distribution(axis, &[key], name)?;
@@ -237,7 +238,8 @@ fn line(axis: &Node, twist: &[[f64; 2]], name: &str) -> Result<Line, String> {
         }))
     };
     let points: Vec<(f64, Vec3)> = all.into_iter().map(|u| (u, place(u))).collect();
-    Line::through(&points, twist).map_err(|error| format!("{name}, `reference_axis`: {error}"))
+    let line = Line::through(&points, twist).map_err(|error| format!("{name}, `reference_axis`: {error}"))?;
+    Ok((line, points.into_iter().map(|(_, place)| (axis.line, place)).collect()))
 }
 
 /// Reads the blade of a file.
@@ -293,13 +295,16 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
         }
     };
     let axis = axis.ok_or_else(|| format!("{name}: the blade has no `reference_axis`"))?;
+    let at = twist.line;
     let twist: Vec<[f64; 2]> = twist
         .grid
         .iter()
         .zip(&twist.values)
         .map(|(u, angle)| [*u, if degrees { angle.to_radians() } else { *angle }])
         .collect();
-    let line = line(axis, &twist, name)?;
+    let (line, points) = line(axis, &twist, name)?;
+    let twist = twist.iter().map(|[u, angle]| (at, *u, angle.to_degrees())).collect();
+    let keypoints = Keypoints { name: name.to_owned(), points, twist };
     let mut cautions = Vec::new();
     let mu = of
         .at(&["structural_damping", "mu"])
@@ -311,8 +316,11 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
                 .map_err(|mu| format!("{name}: `mu` has {} numbers and not six", mu.len()))
         })
         .transpose()?;
-    if let Some(mu) = damping.iter().flatten().find(|mu| **mu < 0.0) {
-        return Err(format!("{name}: `mu` has a negative value, {mu} s"));
+    if let Some(mu) = damping.iter().flatten().find(|mu| !(0.0..=LONGEST).contains(*mu)) {
+        let line = of.at(&["structural_damping", "mu"]).map_or(of.line, |mu| mu.line);
+        return Err(format!(
+            "line {line} of {name}: `mu` has a negative value or one beyond {LONGEST:e} s, {mu:e} s"
+        ));
     }
     let damping = damping.filter(|mu| mu.iter().any(|mu| *mu > 0.0));
     if damping.is_none() {
@@ -352,5 +360,6 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
             100.0 * exchanged
         ));
     }
-    Raw { name, convention: &WINDIO, line, rows, damping, cautions, notes: Vec::new() }.deck()
+    let (notes, silent) = (Vec::new(), Silent::default());
+    Raw { name, convention: &WINDIO, line, keypoints, rows, damping, cautions, notes, silent }.deck()
 }

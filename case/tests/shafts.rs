@@ -1,0 +1,148 @@
+//! Shafts, beams that spin about their own axes, and what a command says where it fails or rotates the other way.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
+
+use flexion::analysis::modes::Mode;
+use flexion_case::{ModesRequest, Reading, parse};
+use flexion_results::{Frequencies, Units};
+use std::f64::consts::PI;
+use std::path::Path;
+
+/// Length, radius, modulus, density.
+const SHAFT: [f64; 4] = [2.0, 0.05, 210e9, 7850.0];
+
+/// A round shaft on pinned ends, which rotates about the axis of the case.
+fn shaft(section: &str, axis: &str) -> Reading {
+    let [length, radius, modulus, density] = SHAFT;
+    let text = format!(
+        "rotation = {{ axis = {axis} }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 's'\nlength = {length}\nup = [0, 1, 0]\nroot = 'free'\nelements = 24\n\
+         section = {{ kind = 'circle', modulus = {modulus}, density = {density}, radius = {radius}{section} }}\n\
+         [[joint]]\nname = 'a'\nkind = 'spherical'\nbetween = ['ground', 's.root']\n\
+         [[joint]]\nname = 'b'\nkind = 'spherical'\nbetween = ['ground', 's.tip']\n"
+    );
+    read(text)
+}
+
+fn read(text: String) -> Reading {
+    parse(text, Path::new("case.toml"), &[]).unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+fn request(speed: f64, count: usize) -> ModesRequest {
+    let units = Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS };
+    ModesRequest { speed, count, free_hub: false, units, film: false }
+}
+
+/// Frequencies [rad/s] of the vibrations and warnings.
+fn modes(reading: &Reading, speed: f64, count: usize) -> (Vec<f64>, Vec<String>) {
+    let found = reading.modes(&request(speed, count)).unwrap_or_else(|error| panic!("{error}"));
+    let all = found.modes.modes.iter().map(Mode::frequency);
+    (all.filter(|omega| *omega > 1.0).collect(), found.warnings)
+}
+
+/// Rayleigh's shaft: whirl at ω with ω² (1 + j₂ δ) − j₁ δ Ω ω = ω₀², δ = (i nπ/L)², where j₂ = 1 and j₁ = 2 are the moments of inertia in bending and about
+/// the axis over ρI, seen from the shaft at |ω − Ω|.
+fn rayleigh(speed: f64, [polar, bending]: [f64; 2]) -> Vec<f64> {
+    let [length, radius, modulus, density] = SHAFT;
+    let mut all: Vec<f64> = [1.0, 2.0]
+        .into_iter()
+        .flat_map(|n| {
+            let (gyration, k) = (0.5 * radius, n * PI / length);
+            let (delta, still) = ((gyration * k).powi(2), gyration * k * k * (modulus / density).sqrt());
+            let (a, b) = (1.0 + bending * delta, 0.5 * polar * delta * speed);
+            [1.0, -1.0].map(|sign| ((b + sign * (b * b + a * still * still).sqrt()) / a - speed).abs())
+        })
+        .collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+/// With its rotary inertia the shaft is Rayleigh's. Without it there is the polar moment alone, which is further from that than no moment at all, and a caution.
+#[test]
+fn a_shaft_without_rotary_inertia_in_bending_says_that_it_is_too_stiff() {
+    for (section, inertia) in [(", rotary-inertia = true", [2.0, 1.0]), ("", [2.0, 0.0])] {
+        let reading = shaft(section, "[1, 0, 0]");
+        let (found, warnings) = modes(&reading, 200.0, 6);
+        for (found, expected) in found.iter().zip(rayleigh(200.0, inertia)) {
+            assert!((found / expected - 1.0).abs() < 1e-5, "{section}: {found} {expected}");
+        }
+        // δ/2 of the first: 0.08 %.
+        let says = warnings
+            .iter()
+            .any(|text| text.contains("about n² × 0.08 %") && text.contains("`rotary-inertia`"));
+        assert_eq!(says, inertia[1] == 0.0, "{warnings:?}");
+        let of_run = reading.case.unused_by_run();
+        assert_eq!(of_run.iter().any(|text| text.contains("spins about its own axis")), inertia[1] == 0.0);
+    }
+    assert!(rayleigh(200.0, [2.0, 1.0])[0] < 0.9999 * rayleigh(200.0, [2.0, 0.0])[0]);
+    // A beam that turns across its axis has no such moment.
+    let (_, warnings) = modes(&shaft("", "[0, 0, 1]"), 5.0, 2);
+    assert!(!warnings.iter().any(|text| text.contains("spins about")), "{warnings:?}");
+}
+
+/// A joint that turns the beam about itself, and a spin at the start.
+#[test]
+fn a_run_of_a_shaft_that_is_turned_by_a_joint_has_the_caution() {
+    let case = |axis: &str, spin: &str| {
+        read(format!(
+            "run = {{ duration = 1 }}\n[[beam]]\nname = 's'\nlength = 1\nup = [0, 1, 0]\nroot = 'free'\n{spin}\n\
+             section = {{ kind = 'circle', modulus = 210e9, density = 7850, radius = 0.02 }}\n\
+             [[joint]]\nname = 'a'\nkind = 'revolute'\nbetween = ['ground', 's.root']\naxis = {axis}\n{}",
+            if spin.is_empty() { "motion = { kind = 'constant', speed = 50 }\n" } else { "" }
+        ))
+    };
+    for (axis, spin, says) in
+        [("[1, 0, 0]", "", true), ("[0, 0, 1]", "", false), ("[1, 0, 0]", "spin = [50, 0, 0]", true)]
+    {
+        let warnings = case(axis, spin).case.unused_by_run();
+        assert_eq!(
+            warnings.iter().any(|text| text.contains("spins about its own axis")),
+            says,
+            "{axis} {spin}: {warnings:?}"
+        );
+    }
+}
+
+/// M, D and K are symmetric but for the speed, which turns the sign of the rest: both senses have one spectrum.
+#[test]
+fn the_frequencies_of_a_rotation_are_those_of_its_other_sense() {
+    let reading = shaft(", rotary-inertia = true", "[1, 0, 0]");
+    let [forwards, backwards] = [200.0, -200.0].map(|speed| modes(&reading, speed, 6).0);
+    for (a, b) in forwards.iter().zip(&backwards) {
+        assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+    }
+    assert!(reading.modes(&request(f64::NAN, 2)).is_err());
+}
+
+/// Where modes, a start or the case itself is refused, the cautions of its deck are shown, which name the cause.
+#[test]
+fn a_refusal_shows_the_cautions_of_a_deck() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = |last: &str| {
+        format!("x,mass,EA,GJ,EI-flap,EI-chord\n0,100,2e9,1e8,3e9,6e9\n30000,60,1e9,5e7,1e9,2e9\n{last}\n")
+    };
+    let case = |more: &str| {
+        let text = format!(
+            "rotation = {{ axis = [0, 0, 1] }}\n{more}\n[[beam]]\nname = 'b'\nroot = 'clamped'\nup = [0, 1, 0]\nstart = [1, 0, 0]\n\
+             section = {{ kind = 'deck', file = 'd.csv', format = 'csv' }}\n"
+        );
+        parse(text, &folder.path().join("case.toml"), &[])
+    };
+    std::fs::write(folder.path().join("d.csv"), deck("60000,30,4e8,2e7,3e8,7e8")).unwrap();
+    let reading = case("run = { duration = 0 }").unwrap_or_else(|problems| panic!("{problems}"));
+    let message = reading.modes(&request(0.8, 2)).err().unwrap().to_string();
+    assert!(message.contains("are its coordinates in metres?"), "{message}");
+    // A twist with a digit too much turns an element by more than elements may turn.
+    let twisted = "x,mass,EA,GJ,EI-flap,EI-chord,twist [deg]\n0,100,2e9,1e8,3e9,6e9,0\n30,60,1e9,5e7,1e9,2e9,4\n60,30,4e8,2e7,3e8,7e8,6122\n";
+    std::fs::write(folder.path().join("d.csv"), twisted).unwrap();
+    let message = case("run = { duration = 0 }").err().unwrap().to_string();
+    assert!(message.contains("line 4 of d.csv: the twist reaches 6.1220e3°"), "{message}");
+}
+
+/// The unit √(EI/ρAL⁴) is known wherever there is one section.
+#[test]
+fn one_beam_in_space_has_frequencies_without_dimension() {
+    let [length, radius, modulus, density] = SHAFT;
+    let unit = shaft("", "[1, 0, 0]").case.dimensionless().unwrap();
+    let expected = length * length / (0.5 * radius) * (density / modulus).sqrt();
+    assert!((unit.factor / expected - 1.0).abs() < 1e-12, "{} {expected}", unit.factor);
+}
