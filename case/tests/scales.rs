@@ -3,10 +3,12 @@
 //! With the length s: L ∝ s, EA and mass per length ∝ s², EI ∝ s⁴, bodies ∝ s³ and s⁵, gravity and speeds of rotation ∝ 1/s, times ∝ s.
 //! Displacements are ∝ s, and velocities, angles and strains the same. Beams of 100 µm are real: resonators of silicon.
 
-#![allow(clippy::unwrap_used)] // in helpers of tests
+#![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use crate::written::{finished, reading};
-use flexion_case::Run;
+use flexion::linalg::vector::noise;
+use flexion_case::{ModesRequest, Run};
+use flexion_results::{Frequencies, Units};
 
 /// Parts of the largest value by which last values may differ: of motions whose steps have a tolerance of 1e-6, and of equilibria. Crests between records
 /// are those of parabolas through ends of steps, of which rounding chooses others.
@@ -196,4 +198,65 @@ fn systems_in_space_move_alike_in_any_size() {
         gravity(s) + &run(s) + &body(s, "ball", [0.0, 0.1]) + &floor.replace("at=[AT]", &lowest)
     };
     same("ball", &falling, MOVING);
+}
+
+/// A steel tube and a concrete girder, and beams at random, clamped or on two hinges.
+fn vibrating(seed: u64, elements: usize) -> impl Fn([f64; 3]) -> String {
+    let random = noise(8, seed);
+    let between = move |i: usize, from: f64, to: f64| from + (to - from) * 0.5 * (1.0 + random[i]);
+    move |[length, modulus, density]: [f64; 3]| {
+        let long = length * 10.0_f64.powf(between(0, 0.0, 2.0));
+        let width = long / 10.0_f64.powf(between(1, 1.0, 2.5));
+        let height = width * between(2, 1.1, 3.0);
+        let modulus = modulus * 10.0_f64.powf(between(3, 9.0, 11.5));
+        let density = density * 10.0_f64.powf(between(4, 3.0, 4.0));
+        let shear = between(5, -1.0, 1.0) > 0.0;
+        let hinges = between(6, -1.0, 1.0) > 0.0;
+        let (root, joints) = match hinges {
+            true => (
+                "free",
+                "[[joint]]\nkind='spherical'\nbetween=['ground','arm.root']\n[[joint]]\nkind='cylindrical'\nbetween=['ground','arm.tip']\naxis=[1,0,0]\n",
+            ),
+            false => ("clamped", ""),
+        };
+        format!(
+            "[[beam]]\nname='arm'\nlength={long:e}\nroot='{root}'\nelements={elements}\nup=[0,0,1]\nshear={shear}\n\
+             section={{kind='rectangle',modulus={modulus:e},density={density:e},width={width:e},height={height:e}}}\n{joints}\
+             [rotation]\naxis=[0,0,1]\n[run]\nduration=0\n"
+        )
+    }
+}
+
+/// Units of length, modulus and density: frequencies are ∝ √(E/ρ)/L. Rows of joints have entries of one or of a length, and stiffnesses those of
+/// the units.
+#[test]
+fn beams_vibrate_alike_in_any_units() {
+    let of = |case: &str, speed: f64| {
+        let request = ModesRequest {
+            speed,
+            count: 6,
+            free_hub: false,
+            units: Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS },
+            film: false,
+        };
+        reading(case, &[]).modes(&request).unwrap_or_else(|error| panic!("{error}\n{case}")).modes.modes
+    };
+    for (seed, elements) in [(1, 10), (2, 24), (3, 48), (4, 80), (5, 4), (6, 60), (7, 80), (8, 16)] {
+        let case = vibrating(seed, elements);
+        let expected = of(&case([1.0; 3]), 0.0);
+        for [length, mass] in
+            [[0, -9], [0, -5], [0, 3], [0, 6], [0, 9], [-6, 0], [-3, 0], [2, 0], [4, 0], [-5, -5], [3, 6]]
+        {
+            let [length, mass] = [length, mass].map(|power| 10.0_f64.powi(power));
+            let found = of(&case([length, mass, mass]), 0.0);
+            assert_eq!(found.len(), expected.len(), "{seed}: lengths × {length:e}, masses × {mass:e}");
+            for (mode, expected) in found.iter().zip(&expected) {
+                let (frequency, expected) = (mode.frequency() * length, expected.frequency());
+                let what =
+                    format!("{seed}: lengths × {length:e}, masses × {mass:e}: {frequency} and {expected}");
+                assert!((frequency - expected).abs() <= 1e-9 * expected, "{what}");
+                assert!(mode.residual < 1e-7 && mode.mesh.is_some(), "{what}, residual {}", mode.residual);
+            }
+        }
+    }
 }

@@ -87,7 +87,14 @@ mod tests {
         let points =
             speeds.iter().map(|&speed| Point { speed, mode: mode(speed), number: 0, assurance: 1.0 });
         let branches = vec![Branch { points: points.collect() }];
-        Campbell { speeds, branches, crossings: Vec::new(), criticals: Vec::new(), instabilities: Vec::new() }
+        Campbell {
+            speeds,
+            branches,
+            crossings: Vec::new(),
+            criticals: Vec::new(),
+            instabilities: Vec::new(),
+            unestimated: None,
+        }
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Campbell diagram of a case: its modes over a range of speeds.
 
-use super::{COARSE, VibrationError, campbell, coarse, rounded};
+use super::{COARSE, VibrationError, campbell, coarse, rounded, unestimated};
 use crate::reading::Reading;
-use flexion::analysis::campbell::{Branch, Campbell, Instability, Plan};
+use flexion::analysis::campbell::{Branch, Campbell, Instability, NoCampbell, Plan};
 use flexion_results::{Directory, OutputError, Resonance, Units, resonances, write_campbell};
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -79,8 +79,12 @@ impl Reading {
             hub: case.hub_state(request.free_hub)?,
             revolutions: request.revolutions,
         };
-        let finer = self.with_finer_mesh().ok().and_then(|finer| finer.case.vibrates(true).ok());
-        let finer = finer.map(|(finer, _)| (finer, case.safety_of_frequencies()));
+        let finer = self.with_finer_mesh().map_err(|problems| problems.reason());
+        let finer = finer.and_then(|finer| finer.case.vibrates(true).map_err(|error| error.to_string()));
+        let (finer, mut why) = match finer {
+            Ok((finer, _)) => (Some((finer, case.safety_of_frequencies())), None),
+            Err(why) => (None, Some(why)),
+        };
         let stopped = AtomicBool::new(false);
         let watched = |done: usize| {
             let goes_on = progress(done);
@@ -90,6 +94,9 @@ impl Reading {
         let mut campbell = campbell(system, finer, &plan, request.threads, &watched)
             .map_err(|error| VibrationError::from(error).suspecting(case))?;
         keep_lowest(&mut campbell, request.count);
+        let failed = campbell.unestimated.as_ref().filter(|why| **why != NoCampbell::Stopped);
+        why = why.or(failed.map(NoCampbell::to_string));
+        warnings.extend(why.map(|why| unestimated(&why)));
         let errors = campbell.branches.iter().enumerate().flat_map(|(number, branch)| {
             branch.points.iter().map(move |point| (number + 1, point.mode.rounding))
         });

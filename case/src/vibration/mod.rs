@@ -184,6 +184,13 @@ pub fn moves(shares: &[(&str, f64)]) -> String {
     words.join(", ")
 }
 
+/// A warning that errors by the mesh are missing, and why.
+fn unestimated(why: &str) -> String {
+    format!(
+        "the errors of the frequencies by the mesh are unknown, for modes of a mesh of twice the elements or functions were not found: {why}"
+    )
+}
+
 /// A warning of the mesh, of a mode by its number and its relative error.
 fn coarse(mode: usize, at: Option<String>, error: f64) -> String {
     let at = at.map_or_else(String::new, |speed| format!(" at {speed}"));

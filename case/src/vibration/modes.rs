@@ -1,10 +1,11 @@
 //! Modes of vibration of a case at one speed of rotation.
 
-use super::{COARSE, VibrationError, coarse, moves, rounded};
+use super::{COARSE, VibrationError, coarse, moves, rounded, unestimated};
 use crate::case::Case;
 use crate::reading::Reading;
 use flexion::analysis::campbell::HubState;
 use flexion::analysis::equilibrium::{equilibrium, stable_equilibrium};
+use flexion::analysis::mesh_error::compare;
 use flexion::analysis::modes::{Mode, Modes, modes as find};
 use flexion::analysis::rotation::rotate_stably;
 use flexion::system::{Slender, State, System};
@@ -16,6 +17,8 @@ const DISPLACED: f64 = 1e-3;
 /// The same of a mode in motion, and its phases.
 const FILMED: f64 = 0.1;
 const PHASES: u32 = 24;
+/// Modes of a finer mesh beyond those asked for: with damping the last ones may change their order.
+const MORE: usize = 4;
 /// Parts of the beam at whose ends shapes are given.
 const STATIONS: u32 = 200;
 
@@ -77,12 +80,12 @@ impl Reading {
         let errors = found.modes.modes.iter().enumerate().map(|(number, mode)| (number + 1, mode.rounding));
         found.warnings.extend(rounded(errors, found.slender.as_ref()));
         // With those of twice the elements or functions, where these can be computed.
-        if let Ok(finer) = self.with_finer_mesh()
-            && let Ok(fine) = compute(&finer.case, request, hub)
+        let finer = self.with_finer_mesh().map_err(|problems| problems.reason());
+        match finer
+            .and_then(|finer| finer_modes(&finer.case, request, hub).map_err(|error| error.to_string()))
         {
-            for (mode, finer) in found.modes.modes.iter_mut().zip(&fine.modes.modes) {
-                mode.compare(finer.frequency(), case.safety_of_frequencies());
-            }
+            Ok(finer) => compare(&mut found.modes.modes, &finer, case.safety_of_frequencies()),
+            Err(why) => found.warnings.push(unestimated(&why)),
         }
         let relative =
             |(number, mode): (usize, &Mode)| (number + 1, mode.mesh.unwrap_or(0.0) / mode.frequency());
@@ -135,6 +138,15 @@ fn about_motions(case: &Case, speed: f64, modes: &Modes) -> Vec<String> {
         ));
     }
     warnings
+}
+
+/// The modes of the case on a finer mesh: some more, among which that of every mode is.
+fn finer_modes(case: &Case, request: &ModesRequest, hub: HubState) -> Result<Vec<Mode>, VibrationError> {
+    let of = |more: usize| {
+        let request = ModesRequest { count: request.count + more, film: false, ..request.clone() };
+        compute(case, &request, hub).map(|found| found.modes.modes)
+    };
+    of(MORE).or_else(|_| of(0))
 }
 
 /// The modes on the mesh of the case.

@@ -35,8 +35,8 @@ pub fn campbell(
     if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1 && next(plan.speeds.len())) {
         let plan = Plan { speeds: diagram.speeds.clone(), ..plan.clone() };
         let (_, blocks) = computed(finer, &plan, threads, &|_| next(plan.speeds.len()))?;
-        let frequencies: Vec<Vec<f64>> = blocks.iter().flat_map(Block::frequencies).collect();
-        diagram.compare(&frequencies, safety);
+        diagram.compare(blocks.iter().flat_map(Block::modes), safety);
+        diagram.unestimated = blocks.iter().find_map(Block::failure).cloned();
     }
     Ok(diagram)
 }

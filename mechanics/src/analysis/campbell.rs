@@ -93,7 +93,7 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
         instabilities.push(Instability::Lost { speed: last.speed, reason: ended.to_string() });
     }
     let speeds = solved.iter().map(|s| s.speed).collect();
-    Ok(Campbell { speeds, branches, crossings, criticals, instabilities })
+    Ok(Campbell { speeds, branches, crossings, criticals, instabilities, unestimated: None })
 }
 
 /// Speeds at which directions of the stiffness change their sign.

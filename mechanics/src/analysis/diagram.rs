@@ -1,5 +1,6 @@
 //! What a Campbell diagram is asked for, and what it holds.
 
+use super::mesh_error;
 use super::modes::{Mode, NoModes};
 use super::rotation::NoRotation;
 
@@ -111,18 +112,17 @@ pub struct Campbell {
     pub criticals: Vec<Critical>,
     /// Instabilities.
     pub instabilities: Vec<Instability>,
+    /// Why frequencies have no errors by the mesh from some speed on, where modes of a finer mesh were not found.
+    pub unestimated: Option<NoCampbell>,
 }
 
 impl Campbell {
-    /// Notes the frequencies [rad/s] that a finer mesh has at each of the speeds, ascending, as far as there are any: their
-    /// differences times `safety` estimate the errors by the mesh.
-    pub fn compare(&mut self, finer: &[Vec<f64>], safety: f64) {
-        for branch in &mut self.branches {
-            for (point, finer) in branch.points.iter_mut().zip(finer) {
-                if let Some(finer) = finer.get(point.number) {
-                    point.mode.compare(*finer, safety);
-                }
-            }
+    /// Notes the modes that a finer mesh has at each of the speeds, ascending, as far as there are any: the [differences](mesh_error) of their
+    /// frequencies times `safety` estimate the errors by the mesh.
+    pub fn compare<'a>(&mut self, finer: impl Iterator<Item = &'a [Mode]>, safety: f64) {
+        for (number, finer) in finer.enumerate() {
+            let points = self.branches.iter_mut().filter_map(|branch| branch.points.get_mut(number));
+            mesh_error::compare(points.map(|point| &mut point.mode), finer, safety);
         }
     }
 

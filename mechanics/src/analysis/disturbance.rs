@@ -27,7 +27,7 @@ pub fn disturb(system: &mut dyn System, state: &mut State, energy: f64, time: f6
     let mut matrix = Matrix::new(&system.structure(1));
     system.tangent(state, Weights::new(1.0, 0.0, time * time), &mut matrix);
     joints::add(system, state, n, &mut matrix);
-    matrix.factor()?;
+    matrix.factor_equilibrated()?;
     matrix.solve(&mut x);
     // The part of the kinetic energy that is quadratic in the velocities.
     let mut kinetic = |sign: f64| {

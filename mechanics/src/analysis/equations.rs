@@ -99,7 +99,7 @@ impl<'a> Equations<'a> {
         apply(self.system, part);
         self.system.tangent(state, Weights::new(self.hold, 0.0, 1.0), &mut self.tangent);
         joints::add(self.system, state, state.v.len(), &mut self.tangent);
-        let factored = self.tangent.factor();
+        let factored = self.tangent.factor_equilibrated();
         factored.map(|_| ()).map_err(|e| Failure { what: e.to_string(), singular: true, worst: e.index })
     }
 

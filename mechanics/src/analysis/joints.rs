@@ -77,7 +77,7 @@ pub(super) fn balance(system: &mut dyn Dynamics, s: &mut State) {
         matrix.add(i, i, 1.0 / (scale * scale));
     }
     add(system, s, n, &mut matrix);
-    if matrix.factor().is_ok() {
+    if matrix.factor_equilibrated().is_ok() {
         matrix.solve(&mut r);
         s.lambda.iter_mut().zip(&r[n..]).for_each(|(lambda, x)| *lambda -= x);
     }

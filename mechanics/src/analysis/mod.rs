@@ -13,6 +13,7 @@ mod joints;
 pub mod linearization;
 mod mac;
 mod mechanism;
+pub mod mesh_error;
 pub mod modes;
 pub mod path;
 pub mod periodic;

@@ -102,7 +102,7 @@ pub fn circulate(
     let mut moved: Vec<Complex64> = cosine.iter().zip(&sine).map(|(c, s)| Complex64::new(-c, *s)).collect();
     // The rows of joints do not change with the azimuth.
     moved.resize(n + multipliers, Complex64::ZERO);
-    impedance.factor().map_err(|_| NoPeriodicMotion::Far)?;
+    impedance.factor_equilibrated().map_err(|_| NoPeriodicMotion::Far)?;
     impedance.solve(&mut moved);
     let amplitude =
         moved[..n].iter().zip(mean.scales()).fold(0.0, |most: f64, (x, scale)| most.max(x.norm() / scale));

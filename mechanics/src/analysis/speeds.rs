@@ -8,7 +8,7 @@ use super::solved::Solved;
 use super::stability::{Stability, judge, judge_by};
 use super::stiffness::matrices;
 use crate::linalg::Matrix;
-use crate::linalg::eigen::Sparse;
+use crate::linalg::eigen::{EigenError, Sparse};
 use crate::system::{Parameter, State, System};
 use num_complex::Complex64;
 
@@ -34,9 +34,14 @@ impl Block {
         self.failure.is_some()
     }
 
-    /// The frequencies [rad/s] at its speeds, up to the first failure, in the order of the modes.
-    pub fn frequencies(&self) -> impl Iterator<Item = Vec<f64>> {
-        self.solved.iter().map(|solved| solved.modes.iter().map(Mode::frequency).collect())
+    /// The modes at its speeds, up to the first failure.
+    pub fn modes(&self) -> impl Iterator<Item = &[Mode]> {
+        self.solved.iter().map(|solved| solved.modes.as_slice())
+    }
+
+    /// Why it ends before its last speed.
+    pub fn failure(&self) -> Option<&NoCampbell> {
+        self.failure.as_ref()
     }
 }
 
@@ -165,12 +170,15 @@ impl<'a> Speeds<'a> {
         let near: Vec<_> = from.map_or(&[][..], |s| &s.modes).iter().take(count).collect();
         let near: Vec<_> = near.iter().map(|m| (m.eigenvalue, m.vector.as_slice())).collect();
         let mut modes = modes_near(system, &state, (&all, multipliers), count, &[], &near);
-        if let Err(NoModes::Inaccurate { number, .. }) = modes
-            && number > self.plan.count
-        {
-            // A mode that was not asked for.
-            let near = &near[..near.len().min(number - 1)];
-            modes = modes_near(system, &state, (&all, multipliers), number - 1, &[], near);
+        let good = match modes {
+            Err(NoModes::Inaccurate { number, .. }) => number - 1,
+            Err(NoModes::Eigen(EigenError::NotConverged { converged, .. })) => converged,
+            _ => 0,
+        };
+        if good >= self.plan.count {
+            // One that is not was not asked for.
+            let near = &near[..near.len().min(good)];
+            modes = modes_near(system, &state, (&all, multipliers), good, &[], near);
         }
         system.hold(true);
         let modes = modes.map_err(|source| NoCampbell::Modes { speed, source })?.modes;

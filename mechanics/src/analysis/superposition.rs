@@ -194,7 +194,7 @@ pub(super) fn displace(
             // What is free to rotate keeps the velocity of the linear motion.
             free.iter().for_each(|&i| rate[i] = velocity[i]);
             let mut tangent = matrices(system, state).0[2].clone();
-            tangent.factor().map_err(|_| NoSuperposition::Large)?;
+            tangent.factor_equilibrated().map_err(|_| NoSuperposition::Large)?;
             tangent.solve(&mut rate);
         }
         system.hold(false);
@@ -224,7 +224,7 @@ fn settle(
         free.iter().for_each(|&i| r[i] = 0.0);
         joints::positions(system, state, &mut r[n..]);
         let mut tangent = matrices(system, state).0[2].clone();
-        tangent.factor().map_err(|_| NoSuperposition::Large)?;
+        tangent.factor_equilibrated().map_err(|_| NoSuperposition::Large)?;
         tangent.solve(&mut r);
         r.iter_mut().for_each(|x| *x = -*x);
         let at = state.q.clone();

@@ -4,13 +4,12 @@
 //! where it can be, more where it is too small: an unknown without stiffness, or a multiplier, whose diagonal is zero, is
 //! eliminated together with what it is coupled with. Blocks of consecutive unknowns leave the band as it is.
 
+use super::equilibration::Equilibration;
 use super::{Matrix, Scalar, Storage};
 use nalgebra::{ComplexField, DMatrix};
 
 /// Largest growth of a diagonal entry, over the largest entry of its row, by which a pivot is taken.
 const GROWTH: f64 = 1e4;
-/// Sweeps that bring the largest entry of every row of a matrix with multipliers to one.
-const SWEEPS: usize = 4;
 
 /// Number of negative eigenvalues of the symmetric matrix A + w B (equal structures): O(n·b²) for half-bandwidth b.
 pub fn negative_pivots(a: &Matrix, b: &Matrix, w: f64) -> usize {
@@ -28,16 +27,14 @@ pub(super) fn shape(matrix: &Matrix) -> [usize; 3] {
 /// Number of negative eigenvalues of a Hermitian matrix with the entries `entry(i, j)`, j ≥ i: its order, its half-bandwidth
 /// and the number of dense rows and columns behind the band are given.
 ///
-/// A matrix with multipliers is scaled to S A S with a diagonal S, which has the same number: the units of a multiplier, a force over
+/// The matrix is brought into other units of its unknowns ([`Equilibration`]), which leave the number: those of a multiplier, a force over
 /// the reach of a row, would otherwise let a pivot pass that is small against the stiffness around it.
 pub fn negative_pivots_of<T>(shape: [usize; 3], entry: impl Fn(usize, usize) -> T) -> usize
 where
     T: Scalar + ComplexField<RealField = f64>,
 {
     let mut rows = Rows::new(shape, entry);
-    if !rows.diagonal_is_full() {
-        rows.scale();
-    }
+    rows.scale();
     rows.measure();
     rows.eliminate()
 }
@@ -89,53 +86,37 @@ impl<T: Scalar + ComplexField<RealField = f64>> Rows<T> {
         &self.data[i * self.width()..][..self.width()]
     }
 
-    fn diagonal_is_full(&self) -> bool {
-        (0..self.band).all(|i| self.row(i)[0].size() > 0.0)
-            && self.corner.diagonal().iter().all(|x| x.size() > 0.0)
-    }
-
     /// Unknowns of the entries of a row of the band, within it and in the border.
     fn unknowns(&self, i: usize) -> [std::ops::Range<usize>; 2] {
         [i..(i + self.half + 1).min(self.band), self.band..self.band + self.border]
     }
 
-    /// The largest entry of each row of S A S.
-    fn largest(&self, s: &[f64]) -> Vec<f64> {
-        let mut largest = vec![0.0_f64; self.band + self.border];
+    /// Calls `f` with the places and the size of every entry.
+    fn each(&self, f: &mut dyn FnMut(usize, usize, f64)) {
         for i in 0..self.band {
             let (row, [within, behind]) = (self.row(i), self.unknowns(i));
             let (near, far) = (&row[..within.len()], &row[self.half + 1..]);
-            let mut own = largest[i];
-            for (j, x) in within.zip(near).chain(behind.zip(far)) {
-                let size = x.size() * s[i] * s[j];
-                own = own.max(size);
-                largest[j] = largest[j].max(size);
-            }
-            largest[i] = largest[i].max(own);
+            within.zip(near).chain(behind.zip(far)).for_each(|(j, x)| f(i, j, x.size()));
         }
         for i in 0..self.border {
-            for j in 0..self.border {
-                let size = self.corner[(i, j)].size() * s[self.band + i] * s[self.band + j];
-                largest[self.band + i] = largest[self.band + i].max(size);
-            }
+            (0..self.border).for_each(|j| f(self.band + i, self.band + j, self.corner[(i, j)].size()));
         }
-        largest
     }
 
     fn measure(&mut self) {
-        self.sizes = self.largest(&vec![1.0; self.band + self.border]);
+        let mut sizes = vec![0.0_f64; self.band + self.border];
+        self.each(&mut |i, j, size| {
+            sizes[i] = sizes[i].max(size);
+            sizes[j] = sizes[j].max(size);
+        });
+        self.sizes = sizes;
     }
 
-    /// Replaces A by S A S, with S by sweeps over all rows at once.
-    ///
-    /// Source: D. Ruiz, *A scaling algorithm to equilibrate both rows and columns norms in matrices*, RAL-TR-2001-034.
+    /// Replaces A by S A S.
     fn scale(&mut self) {
-        let mut s = vec![1.0; self.band + self.border];
-        for _ in 0..SWEEPS {
-            let largest = self.largest(&s);
-            s.iter_mut().zip(&largest).filter(|(_, x)| **x > 0.0).for_each(|(s, x)| *s /= x.sqrt());
-        }
-        let width = self.width();
+        let mut units = Equilibration::default();
+        units.find(self.band + self.border, |measure| self.each(measure));
+        let (s, width) = (units.scales(), self.width());
         for i in 0..self.band {
             let [within, behind] = self.unknowns(i);
             let (near, far) = self.data[i * width..(i + 1) * width].split_at_mut(self.half + 1);

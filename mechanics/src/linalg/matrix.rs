@@ -1,5 +1,6 @@
 //! The matrix an integrator owns and a system fills.
 
+use super::equilibration::Equilibration;
 use super::vector::weighted_sum;
 use super::{Bordered, Dense, Scalar, Singular};
 use std::sync::Arc;
@@ -128,6 +129,9 @@ pub struct Matrix<T = f64> {
     /// Stamps of the terms of a combination, and their weights.
     source: Option<([Stamp; 3], [T; 3])>,
     factored: bool,
+    /// Units of the unknowns in which it was factored, if others than its own.
+    units: Equilibration,
+    equilibrated: bool,
 }
 
 /// The place of each unknown in the storage, and memory for a vector in the order of the places.
@@ -296,7 +300,15 @@ impl<T: Scalar> Matrix<T> {
                 return Matrix { ordering: Some(Ordering::new(places.clone())), ..made };
             }
         };
-        Matrix { storage, ordering: None, stamp: None, source: None, factored: false }
+        Matrix {
+            storage,
+            ordering: None,
+            stamp: None,
+            source: None,
+            factored: false,
+            units: Equilibration::default(),
+            equilibrated: false,
+        }
     }
 
     /// The place of unknown `i` in the storage.
@@ -491,17 +503,37 @@ impl<T: Scalar> Matrix<T> {
             let index = self.ordering.as_ref().map_or(cause.index, |o| o.unknowns[cause.index] as usize);
             return Err(Singular { index, ..cause });
         }
-        self.factored = true;
+        (self.factored, self.equilibrated) = (true, false);
+        Ok(true)
+    }
+
+    /// The same in the units of the unknowns in which the largest entry of every row is about one: which pivots are exchanged does not depend on
+    /// the units of the content.
+    pub fn factor_equilibrated(&mut self) -> Result<bool, Singular> {
+        if self.factored {
+            return Ok(false);
+        }
+        self.units.equilibrate(&mut self.storage);
+        self.factor()?;
+        self.equilibrated = true;
         Ok(true)
     }
 
     /// Solves A x = b in place after [`Matrix::factor`].
     pub fn solve(&mut self, b: &mut [T]) {
         debug_assert!(self.factored, "factor first");
-        match (&mut self.storage, &mut self.ordering) {
-            (Storage::Dense(a), _) => a.solve(b),
-            (Storage::Band(a), None) => a.solve(b),
-            (Storage::Band(a), Some(ordering)) => ordering.apply(b, |b| a.solve(b)),
+        let (storage, units) = (&mut self.storage, self.equilibrated.then_some(&self.units));
+        let mut solve = |b: &mut [T]| {
+            units.into_iter().for_each(|units| units.scale(b));
+            match storage {
+                Storage::Dense(a) => a.solve(b),
+                Storage::Band(a) => a.solve(b),
+            }
+            units.into_iter().for_each(|units| units.scale(b));
+        };
+        match &mut self.ordering {
+            None => solve(b),
+            Some(ordering) => ordering.apply(b, solve),
         }
     }
 }

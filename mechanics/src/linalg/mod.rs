@@ -7,6 +7,7 @@ mod band;
 mod bordered;
 mod dense;
 pub mod eigen;
+mod equilibration;
 mod inertia;
 mod matrix;
 mod null_space;

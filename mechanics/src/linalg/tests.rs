@@ -96,6 +96,37 @@ fn multipliers_inside_the_band_survive_pivoting() {
     assert!(solve_error(a, b) < 1e-12);
 }
 
+/// A chain that resists bending, k (xᵢ₋₁ − 2xᵢ + xᵢ₊₁), with its first two places held by rows of one: the deflection under a load k is the same
+/// for any k.
+#[test]
+fn rows_of_joints_hold_a_beam_of_any_stiffness() {
+    let places = 30;
+    let n = places + 2;
+    // λ₀, x₀, λ₁, x₁, x₂ …
+    let of = |i: usize| if i < 2 { 2 * i + 1 } else { i + 2 };
+    let deflection = |k: f64| {
+        let (mut a, mut b) = (Matrix::new(&Structure::band(n, 3, 3, 0)), vec![0.0; n]);
+        for i in 1..places - 1 {
+            let row = [(of(i - 1), 1.0), (of(i), -2.0), (of(i + 1), 1.0)];
+            row.iter().for_each(|(p, x)| row.iter().for_each(|(q, y)| a.add(*p, *q, k * x * y)));
+        }
+        for i in [0, 1] {
+            a.add(2 * i, of(i), -1.0);
+            a.add(of(i), 2 * i, -1.0);
+        }
+        b[n - 1] = k;
+        a.factor_equilibrated().unwrap();
+        a.solve(&mut b);
+        b[n - 1]
+    };
+    // The moment is k (n − 1 − i) at place i, and so is the second difference.
+    let expected: f64 = (1..places - 1).map(|i| ((places - 1 - i) as f64).powi(2)).sum();
+    for k in [1e-12, 1e-6, 1.0, 1e6, 1e12] {
+        let found = deflection(k);
+        assert!((found / expected - 1.0).abs() < 1e-10, "k = {k:e}: {found} and {expected}");
+    }
+}
+
 /// A chain of masses with a multiplier between neighbours, which joins them, and one that joins the ends: in the order
 /// x, λ all the multipliers are far from their masses, in the order of the chain they lie in the band.
 fn chain<T: Scalar>(masses: usize, structure: &Structure) -> Matrix<T> {

@@ -89,7 +89,9 @@ pub(super) fn redundant(
             matrix.add(n + i, n + i, 1.0);
         }
     }
-    matrix.factor().map_err(|e| ModelError::Velocities(format!("{} ({e})", system.unknown(e.index))))?;
+    matrix
+        .factor_equilibrated()
+        .map_err(|e| ModelError::Velocities(format!("{} ({e})", system.unknown(e.index))))?;
     // Orthonormal, each with its combination of rows.
     let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
     let mut found: Vec<Redundant> = Vec::new();
@@ -187,7 +189,9 @@ pub(super) fn velocities(system: &mut dyn Dynamics, s: &State) -> Result<Vec<f64
             matrix.add(j, n + i, -x);
         }
     }
-    matrix.factor().map_err(|e| ModelError::Velocities(format!("{} ({e})", system.unknown(e.index))))?;
+    matrix
+        .factor_equilibrated()
+        .map_err(|e| ModelError::Velocities(format!("{} ({e})", system.unknown(e.index))))?;
     matrix.solve(&mut rhs);
     axpy(-1.0, &rhs[..n], &mut v);
     Ok(v)

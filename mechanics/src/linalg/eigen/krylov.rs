@@ -138,6 +138,8 @@ pub(super) struct Found {
     pub pairs: Vec<Ritz>,
     /// Number of pairs that count.
     pub counting: usize,
+    /// Number of eigenvalues of the space that do not count, converged or not.
+    pub others: usize,
     pub converged: usize,
 }
 
@@ -209,7 +211,7 @@ pub(super) fn krylov(
             norm(w, dual_w) > rounding
         };
     if !begin(operator, &space, 0.0, &mut w, &mut dual_w) {
-        return Ok(Found { space, pairs: Vec::new(), counting: 0, converged: wanted });
+        return Ok(Found { space, pairs: Vec::new(), counting: 0, others: 0, converged: wanted });
     }
     let carries = !operator.knows_duals();
     let (mut largest, mut last): (f64, Option<Spectrum>) = (0.0, None);
@@ -253,11 +255,12 @@ pub(super) fn krylov(
                 (Err(error), None) => return Err(error),
             },
         };
-        let Selected { places, counting, converged } = select(&spectrum.ritz, &search, largest, is_last);
+        let Selected { places, counting, others, converged } =
+            select(&spectrum.ritz, &search, largest, is_last);
         if converged >= wanted || is_last {
             let pairs = spectrum.take(&places);
             let converged = if exhausted { wanted } else { converged };
-            return Ok(Found { space, pairs, counting, converged });
+            return Ok(Found { space, pairs, counting, others, converged });
         }
         last = Some(spectrum);
     }
@@ -267,8 +270,9 @@ pub(super) fn krylov(
 struct Selected {
     /// Places of the largest, ascending: those that count, and those that do not as far as they have converged.
     places: Vec<usize>,
-    /// Number of those that count.
+    /// Number of those that count, and of those up to the last that do not.
     counting: usize,
+    others: usize,
     /// Number of those that have converged, up to the first that has not.
     converged: usize,
 }
@@ -282,7 +286,7 @@ fn select(ritz: &[Ritz], search: &Search<'_>, largest: f64, is_last: bool) -> Se
     let is_known = |r: &Ritz| {
         search.projection != Projection::Hessenberg || !is_unknown(r, search, [largest, noise], is_last)
     };
-    let (mut places, mut counting, mut converged) = (Vec::new(), 0, 0);
+    let (mut places, mut counting, mut others, mut converged) = (Vec::new(), 0, 0, 0);
     for (k, r) in ritz.iter().enumerate().filter(|(_, r)| is_upper(r) && is_known(r)) {
         if (search.counts)(r.value) {
             if counting == search.wanted {
@@ -290,12 +294,15 @@ fn select(ritz: &[Ritz], search: &Search<'_>, largest: f64, is_last: bool) -> Se
             }
             converged += usize::from(converged == counting && has_converged(r));
             counting += 1;
-        } else if !has_converged(r) {
-            continue;
+        } else {
+            others += 1;
+            if !has_converged(r) {
+                continue;
+            }
         }
         places.push(k);
     }
-    Selected { places, counting, converged }
+    Selected { places, counting, others, converged }
 }
 
 /// Whether an eigenvalue of a matrix that is not symmetric says too little to be counted or waited for.
@@ -311,7 +318,7 @@ fn is_unknown(r: &Ritz, search: &Search<'_>, [largest, noise]: [f64; 2], is_last
     let has_no_digit = size < error;
     // As many are next to a cluster of overdamped motions.
     let decays = |sign: f64| !(search.counts)((r.value.re + sign * error).into());
-    let may_be_real = across < error && decays(-1.0) && decays(1.0);
+    let may_be_real = counts && across < error && decays(-1.0) && decays(1.0);
     is_zero || is_last && (has_no_digit || may_be_real) || may_be_real && across < OVERDAMPED * size
 }
 

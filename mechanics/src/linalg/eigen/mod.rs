@@ -60,7 +60,10 @@ pub enum EigenError {
     #[error("the {0}")]
     Singular(#[from] Singular),
     /// The Krylov space was exhausted or grew too large.
-    #[error("{converged} of {wanted} eigenvalues converged in a Krylov space of dimension {dimension}")]
+    #[error(
+        "{converged} of {wanted} eigenvalues converged in a Krylov space of dimension {dimension}: ask for fewer, or lower the damping where it is so strong that \
+         most motions decay without vibrating"
+    )]
     NotConverged {
         /// Number requested.
         wanted: usize,

@@ -9,6 +9,8 @@ use num_complex::Complex64;
 const NOISE: f64 = 1e-7;
 /// |Im λ|/|λ| below which an eigenvalue counts as real: √ε of a double one, and some.
 const REAL: f64 = 1e-6;
+/// |Im λ|/|Re λ| = π/(52 ln 2), ζ = 0.9962, up to which a motion with damping counts as overdamped: it has fallen to 2⁻⁵² before it is back for the first time.
+const FADED: f64 = 0.087;
 /// Relative difference of eigenvalues that count as one.
 const EQUAL: f64 = 1e-6;
 
@@ -17,7 +19,7 @@ impl Pencil {
     /// pair ±λ of a conservative pencil the growing one is given. With damping, real λ < 0 are not counted and given too, as far as they
     /// are nearer to the shift than the last that counts. `near` are approximate pairs, with which it begins: the Krylov space of a sum of
     /// eigenvectors is spanned by them. The pairs found are then counted, those of damped vibrations as if without their damping, and if the
-    /// numbers differ they are looked for anew.
+    /// numbers differ they are looked for anew. What has faded before it has vibrated is real too.
     ///
     /// # Errors
     /// [`EigenError`] when they do not converge.
@@ -40,6 +42,8 @@ impl Pencil {
         let snaps = self.kind() == Kind::General && self.is_conservative();
         let mut pairs: Vec<Pair> =
             found.into_iter().map(|(value, vector)| self.purified(value, vector)).collect();
+        let decays = |pair: &&mut Pair| decays(pair.value, self.is_conservative());
+        pairs.iter_mut().filter(decays).for_each(|pair| pair.value.im = 0.0);
         for pair in pairs.iter_mut().filter(|pair| snaps && pair.value.im > 0.0) {
             // Where two frequencies meet, a relative error δ of K makes √δ of them.
             let noise = NOISE.max(2.0 * self.rounding(pair.value, &pair.vector).sqrt());
@@ -155,16 +159,15 @@ impl Pencil {
         let mut operator = General::new(self);
         let search = Search {
             wanted: count,
-            counts: &|theta| theta.norm() > 0.0 && !decays(value(theta)),
+            counts: &|theta| theta.norm() > 0.0 && !decays(value(theta), conservative),
             projection: Projection::Hessenberg,
             tolerance: TOLERANCE,
             start,
             seed: 0,
         };
         let found = krylov(&mut operator, &Space::default(), search)?;
-        let decaying = found.pairs.iter().filter(|r| r.value.norm() > 0.0 && decays(value(r.value))).count();
-        // Overdamped motions may leave fewer vibrations than are asked for.
-        let fewer = decaying > 0 && !conservative && found.converged == found.counting;
+        // Overdamped motions, which come in clusters that do not converge, may leave fewer vibrations than are asked for.
+        let fewer = found.others > 0 && !conservative && found.converged == found.counting;
         let wanted = if fewer { found.converged } else { count };
         let found = found.all(wanted)?;
         let mut number = 0;
@@ -172,7 +175,7 @@ impl Pencil {
         for r in found.pairs.iter().filter(|r| r.value.norm() > 0.0) {
             let value = value(r.value);
             let vector = found.space.vector(r, n);
-            if decays(value) {
+            if decays(value, conservative) {
                 // The other of a pair ±λ, unless it is zero but for rounding.
                 if conservative && self.rounding(value, &vector) < UNCERTAIN {
                     continue;
@@ -190,7 +193,8 @@ impl Pencil {
     }
 }
 
-/// Whether a motion decays without vibrating.
-fn decays(value: Complex64) -> bool {
-    value.im == 0.0 && value.re < 0.0
+/// Whether a motion decays without vibrating, or before it does. Without damping the other of two that flutter grows.
+fn decays(value: Complex64, is_conservative: bool) -> bool {
+    let faded = if is_conservative { 0.0 } else { FADED };
+    value.re < 0.0 && value.im.abs() <= faded * value.re.abs()
 }

@@ -93,7 +93,7 @@ impl Pencil {
         if shift != 0.0 {
             factor.combine([&stiffness, &damping, &mass], [1.0, shift, shift * shift]);
         }
-        factor.factor()?;
+        factor.factor_equilibrated()?;
         let sizes = Sparse::of(&stiffness).sizes();
         let (kind, conservative, symmetric, solutions) = (Kind::General, false, false, 0);
         let entries = [&mass, &damping].map(Sparse::of);
@@ -303,7 +303,7 @@ impl Pencil {
     pub fn purified_at_its_size(&self, value: Complex64, vector: Vec<Complex64>) -> Pair {
         let (mut factor, shift) = (self.stiffness.clone(), value.norm());
         factor.combine([&self.stiffness, &self.damping, &self.mass], [1.0, shift, shift * shift]);
-        if factor.factor().is_err() {
+        if factor.factor_equilibrated().is_err() {
             return Pair { value, vector, residual: f64::NAN };
         }
         let (off, residual) = residual(self.entries.each_ref(), &mut factor, shift, value, &vector);
