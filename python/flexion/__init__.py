@@ -21,6 +21,7 @@ from ._errors import (
     SweepError,
 )
 from ._figure import Figure
+from ._law import Law, law, sampled
 from ._linear import Linear, Stiffness
 from ._run import Column, Event, Run, Trust, View, load
 from ._statics import LoadPath
@@ -47,6 +48,7 @@ __all__ = [
     "FlexionWarning",
     "InternalError",
     "Interrupted",
+    "Law",
     "Linear",
     "LoadPath",
     "Mode",
@@ -63,8 +65,10 @@ __all__ = [
     "View",
     "__version__",
     "compare",
+    "law",
     "load",
     "plot",
+    "sampled",
     "schema",
     "sweep",
 ]
