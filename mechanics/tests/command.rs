@@ -1,5 +1,7 @@
 //! Laws of one's own: against the controller of a motor, against closed forms, and what they may not be.
 
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
 use flexion::analysis::recording::{Record, record};
 use flexion::analysis::transient::{Ending, Plan};
 use flexion::command::{Command, CommandFault, Commanded, Input, Signal, Timing};
@@ -233,7 +235,8 @@ fn a_continuous_law_with_memory_ends_the_run() {
 
 #[test]
 fn a_law_that_gives_no_number_ends_the_run_and_what_was_recorded_is_kept() {
-    let laws: [(fn(f64) -> Value, &str); 2] = [
+    type Law = (fn(f64) -> Value, &'static str);
+    let laws: [Law; 2] = [
         (|t| Ok(if t > 0.4 { f64::NAN } else { 1.0 }), "the law `torque` gives NaN at t = 0.4"),
         (|t| if t > 0.4 { Err("raised".to_owned()) } else { Ok(1.0) }, "the law `torque` raised"),
     ];

@@ -23,11 +23,12 @@ from ._errors import (
 from ._figure import Figure
 from ._law import Law, law, sampled
 from ._linear import Linear, Stiffness
-from ._run import Column, Event, Run, Trust, View, load
+from ._run import Column, Event, Run, Trust, load
 from ._statics import LoadPath
 from ._sweep import Sweep, sweep
 from ._value import Value
 from ._vibration import Branch, Crossing, Diagram, Mode, Modes, Resonance
+from ._view import View
 
 __version__ = version()
 

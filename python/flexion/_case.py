@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _core
 from ._errors import Interrupted, RunError, warn
@@ -21,6 +20,7 @@ from ._statics import LoadPath
 from ._vibration import Diagram, Modes
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from . import keys
 
 Stop: TypeAlias = Event | Callable[[], bool] | None
