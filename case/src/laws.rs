@@ -1,19 +1,8 @@
 //! Laws of a program: torques of motors and factors of loads that its functions give. No file holds them.
 
-use crate::fault::{Fault, Made};
-use crate::kinds::joint::Joint;
-use crate::kinds::load::Load;
-use crate::kinds::name::numbered;
-use flexion::command::{Added, Command, CommandFault, Input, Signal, Timing};
-use flexion::drive::Actuator;
-use flexion::hub_beam::{self, Hub};
-use flexion::multibody::{Drive, Kind};
-use flexion::profile::Profile;
+use flexion::command::{Command, CommandFault, Input, Signal, Timing};
 use flexion_results::nearest;
 use std::sync::Arc;
-
-/// The torque on the free hub of a beam.
-const HUB: &str = "hub.torque";
 
 /// Makes a law for every run: a companion has one of its own, with a memory of its own.
 pub trait Start: std::fmt::Debug + Send + Sync {
@@ -68,86 +57,15 @@ impl Signals {
         self.0.iter().map(input).collect()
     }
 
-    /// Makes laws the amplitudes of the last loads, which are theirs.
-    pub(crate) fn on_loads(&self, loads: &mut [Load]) {
-        let of_loads = self.0.iter().filter(|(law, _)| law.load.is_some());
-        for (load, (_, signal)) in loads.iter_mut().rev().zip(of_loads.rev()) {
-            load.amplitude = Some(Arc::clone(signal) as Arc<dyn Profile>);
-        }
+    /// What laws give that are amplitudes of loads, in the order of these.
+    pub(crate) fn loads(&self) -> impl DoubleEndedIterator<Item = &Arc<Signal>> {
+        self.0.iter().filter(|(law, _)| law.load.is_some()).map(|(_, signal)| signal)
     }
 
-    fn torques(&self) -> impl Iterator<Item = (&str, &Arc<Signal>)> {
+    /// What laws give that drive a hub or a joint, with their names.
+    pub(crate) fn torques(&self) -> impl Iterator<Item = (&str, &Arc<Signal>)> {
         self.0.iter().filter(|(law, _)| law.load.is_none()).map(|(law, signal)| (law.name.as_str(), signal))
     }
-
-    /// Adds laws to the torque on a hub.
-    pub(crate) fn on_hub(&self, hub: &mut Hub) -> Made<()> {
-        for (name, signal) in self.torques() {
-            match &mut hub.drive {
-                hub_beam::Drive::Free(free) if name == HUB => add(&mut free.actuator, signal),
-                hub_beam::Drive::Free(_) => return Err(unknown(name, &[HUB.to_owned()])),
-                hub_beam::Drive::Prescribed(_) => {
-                    let message = format!(
-                        "the law `{name}` has nothing to drive: the hub moves as prescribed; a free one is written \
-                         `hub.motion = {{ kind = \"free\" }}`, and a law of a load needs the load"
-                    );
-                    return Err(Fault::new("", message).into());
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds laws to what drives joints.
-    pub(crate) fn on_joints(&self, joints: &mut [Joint]) -> Made<()> {
-        for (name, signal) in self.torques() {
-            let named = |(i, joint): (usize, &Joint)| {
-                let effort = match joint.kind {
-                    Kind::Revolute | Kind::Cylindrical => "torque",
-                    Kind::Prismatic => "thrust",
-                    _ => return None,
-                };
-                Some((i, format!("{}.{effort}", numbered(&joint.name, "joint", i))))
-            };
-            let all: Vec<(usize, String)> = joints.iter().enumerate().filter_map(named).collect();
-            let Some((i, _)) = all.iter().find(|(_, known)| known == name) else {
-                let names: Vec<String> = all.into_iter().map(|(_, name)| name).collect();
-                return Err(unknown(name, &names));
-            };
-            match &mut joints[*i].drive {
-                Drive::Actuated(actuator) => add(actuator, signal),
-                Drive::Prescribed(_) => {
-                    let message =
-                        format!("the law `{name}` has nothing to drive: the joint moves as prescribed");
-                    return Err(Fault::new("", message).into());
-                }
-                drive @ Drive::None => {
-                    let torque = Arc::clone(signal) as Arc<dyn Profile>;
-                    let free =
-                        Actuator { torque, damping: 0.0, stiffness: 0.0, rest_angle: 0.0, controller: None };
-                    *drive = Drive::Actuated(free);
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-/// Adds a law to the torque of a motor.
-fn add(actuator: &mut Actuator, signal: &Arc<Signal>) {
-    let to = Arc::clone(&actuator.torque);
-    actuator.torque = Arc::new(Added { to, signal: Arc::clone(signal) });
-}
-
-fn unknown(name: &str, names: &[String]) -> crate::fault::Faults {
-    let near = nearest(name, names.iter().map(String::as_str));
-    let there = match (near, names) {
-        (Some(near), _) => format!("; did you mean `{near}`?"),
-        (None, []) => "; no joint is free to be driven".to_owned(),
-        (None, names) => format!("; there is `{}`", names.join("`, `")),
-    };
-    let message = format!("the law `{name}` names nothing that can be driven, and has no load{there}");
-    Fault::new("", message).into()
 }
 
 /// Why a model takes no law, with the nearest column.

@@ -22,6 +22,7 @@ mod blame;
 mod case;
 pub mod change;
 pub mod declaration;
+mod driven;
 mod fault;
 mod features;
 mod files;

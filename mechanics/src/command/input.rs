@@ -1,6 +1,6 @@
 //! A law with what it reads, when it is asked, and the signal that it gives.
 
-use super::Signal;
+use super::signal::Signal;
 use std::sync::Arc;
 
 /// Most samples of a law in a run.
