@@ -6,9 +6,11 @@ use super::hub_beam::HubBeam;
 use super::kind::Context;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::{Method, Steps};
+use super::laws::Signals;
 use super::layout::{self, BASIS, INITIAL, INTEGRATOR, OUTPUT, OUTPUT_IN_SPACE, RUN, Recorded, Run, TITLE};
 use super::length::length;
 use super::places::Parts;
+use super::sources::Files;
 use super::space::{self, Space};
 use super::stations::stations;
 use super::values::{Filled, Value, Values};
@@ -82,10 +84,10 @@ const MOST_SHAPES: f64 = 1e4;
 ///
 /// # Errors
 /// All faults of all parts, at dotted paths of the case.
-pub(super) fn case(v: &mut Values, files: &super::sources::Files<'_>) -> Made<Case> {
+pub(super) fn case(v: &mut Values, files: &Files<'_>, signals: &Signals) -> Made<Case> {
     let mut found = Found::default();
     let cautions = RefCell::default();
-    let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions };
+    let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions, signals };
     let run = RUN.read(v, c);
     // A case that gives no duration has no run.
     let duration = run.as_ref().ok().map(|run| run.duration.unwrap_or(0.0));

@@ -1,6 +1,7 @@
 //! A beam on a hub: its parts, and what is checked across them.
 
 use super::declaration::Key;
+use super::driven;
 use super::fault::{At, Fault, Faults, Found, Made};
 use super::features;
 use super::kind::{Context, Keys};
@@ -107,7 +108,10 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
             if layout::SECTION.chosen_in(v) == Some("resultants") { f64::INFINITY } else { FASTEST };
         implausible(section.planar.resultants(0.0), fastest, c);
     }
-    let hub = found.part(hub(v, c));
+    let mut hub = found.part(hub(v, c));
+    if let Some(hub) = &mut hub {
+        found.part(driven::on_hub(c.signals, hub));
+    }
     let loads = loads(v, c, &mut found);
     let acting: Vec<f64> = loads.iter().flatten().flat_map(|load| load.nodes.iter().copied()).collect();
     let ends = |elements: usize| {
@@ -274,7 +278,8 @@ fn in_space(axes: Axes) -> Option<&'static str> {
 fn loads(v: &Values, c: &Context<'_>, found: &mut Found) -> Option<Vec<Acting>> {
     let gravity = found.part(GRAVITY.read(v, c).and_then(gravity));
     let masses = found.part(MASS.make(v, c));
-    let loads = found.part(LOAD.make(v, c));
+    let mut loads = found.part(LOAD.make(v, c));
+    loads.iter_mut().for_each(|loads| driven::on_loads(c.signals, loads));
     let springs = found.part(SPRING.make(v, c));
     let (gravity, masses, loads, springs) = (gravity?, masses?, loads?, springs?);
     let mut all: Vec<Acting> = gravity.into_iter().collect();

@@ -5,6 +5,7 @@ use super::fault::{Fault, Faults, Made};
 use super::places::Parts;
 use super::sources::Files;
 use super::values::{Value, Values};
+use crate::laws::Signals;
 use std::cell::RefCell;
 use std::fmt;
 
@@ -21,6 +22,8 @@ pub struct Context<'a> {
     pub files: &'a Files<'a>,
     /// What the reader of a case should know of its parts.
     pub cautions: &'a RefCell<Vec<String>>,
+    /// What laws of a program command.
+    pub(crate) signals: &'a Signals,
 }
 
 impl Context<'_> {

@@ -6,7 +6,9 @@ use super::declaration::Presence;
 use super::fault::{Fault, Faults};
 use super::files::deck;
 use super::kind::Context;
+use super::kinds::initial::Initial;
 use super::kinds::integrator::Method;
+use super::laws::{self, Law, Signals};
 use super::layout::{self, INTEGRATOR};
 use super::problem::{Problem, Problems, Source, inside};
 use super::reader;
@@ -16,6 +18,7 @@ use super::sources::{Contents, Files, Folder, Sources};
 use super::space::Space;
 use super::tree::{self, Node, Raw};
 use super::values::{Filled, Value, Values};
+use flexion::command::Commanded;
 use flexion::integrator::Integrator;
 use flexion::system::{Jump, State, System};
 use flexion_results::Artifact;
@@ -23,6 +26,7 @@ use std::cell::RefCell;
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Largest case file that is read [bytes].
 const LARGEST: u64 = 10_000_000;
@@ -60,6 +64,9 @@ pub struct Reading {
     short: Option<(Values, Vec<[String; 2]>)>,
     sources: Vec<Source>,
     pub(super) files: Contents,
+    /// Laws of a program, and what they command of the parts.
+    laws: Arc<[Law]>,
+    signals: Signals,
 }
 
 impl Reading {
@@ -179,6 +186,43 @@ impl Reading {
         self.after(loads, |root, (load, silent), problems| tree::push_load(root, load, *silent, problems))
     }
 
+    /// The same case with laws of a program, which hold for runs alone: no file holds them. Laws of loads come with loads, whose amplitudes
+    /// they are.
+    ///
+    /// # Errors
+    /// What a law drives is not there, a load is wrong, or the case goes on from an earlier run.
+    pub fn with_laws(&self, laws: Vec<Law>) -> Result<Reading, Problems> {
+        let names: Vec<&str> = laws.iter().map(|law| law.name.as_str()).collect();
+        if let Some((_, name)) = names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
+            return Err(self.problem("", format!("the law `{name}` is given twice")));
+        }
+        if let (Initial::Restart(_), false) = (&self.case.initial, laws.is_empty()) {
+            let message = "a run with laws of a program begins at t = 0: what they remember of an earlier run is in no file";
+            return Err(self.problem("initial.kind", message));
+        }
+        let loads: Vec<(String, bool)> =
+            laws.iter().filter_map(|law| Some((law.load.clone()?, true))).collect();
+        let loaded = self.without_laws()?.with_loads(&loads)?;
+        let problems = Problems { sources: loaded.sources, list: Vec::new() };
+        interpreted(loaded.root, &self.file, &self.files, problems, &laws.into())
+    }
+
+    /// The case without the laws of a program and their loads.
+    ///
+    /// # Errors
+    /// None that the case has not had before.
+    pub fn without_laws(&self) -> Result<Reading, Problems> {
+        let mut root = self.root.clone();
+        tree::pop_loads(&mut root, self.laws.iter().filter(|law| law.load.is_some()).count());
+        let problems = Problems { sources: self.sources.clone(), list: Vec::new() };
+        interpreted(root, &self.file, &self.files, problems, &Arc::default())
+    }
+
+    /// The laws of a program.
+    pub fn laws(&self) -> &[Law] {
+        &self.laws
+    }
+
     /// The same case with values of a sweep.
     ///
     /// # Errors
@@ -208,7 +252,7 @@ impl Reading {
         let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
         let mut root = self.root.clone();
         changes.iter().for_each(|change| make(&mut root, change, &mut problems));
-        interpreted(root, &self.file, &self.files, problems)
+        interpreted(root, &self.file, &self.files, problems, &self.laws)
     }
 
     /// The live objects: the mechanical system and the integrator, which has passed its stability limit for
@@ -217,6 +261,19 @@ impl Reading {
     /// # Errors
     /// [`Problems`] at the key that is to blame.
     pub fn build(&self) -> Result<Live, Problems> {
+        if self.laws.is_empty() {
+            return self.build_without_laws();
+        }
+        // Each run has signals and laws of its own.
+        let own = self.after::<()>(&[], |_, (), _| {})?;
+        let Live { system, integrator } = own.build_without_laws()?;
+        let inputs = own.signals.inputs().map_err(|why| self.problem("", why))?;
+        let commanded = Commanded::new(system, inputs, self.case.duration);
+        let system = commanded.map_err(|fault| self.problem("", laws::said(&fault)))?;
+        Ok(Live { system: Box::new(system), integrator })
+    }
+
+    fn build_without_laws(&self) -> Result<Live, Problems> {
         let case = &self.case;
         let mut system = case.system().map_err(|faults| self.problems(faults))?;
         let explicit = self.integrator()?;
@@ -256,6 +313,7 @@ impl Reading {
             parts: None,
             files: &files,
             cautions: &cautions,
+            signals: &Signals::default(),
         };
         let method = INTEGRATOR.read(&self.values, &context);
         method.map(|Method { integrator, .. }| integrator).map_err(|faults| self.problems(faults))
@@ -360,7 +418,7 @@ pub fn parse_with(
     let mut problems = Problems::default();
     problems.sources.push(Source { name: file.display().to_string(), text: text.clone() });
     let root = tree::read(&text, overrides, &mut problems);
-    interpreted(root, file, sources, problems)
+    interpreted(root, file, sources, problems, &Arc::default())
 }
 
 /// Makes the case of its tree; `problems` are those of its text.
@@ -369,6 +427,7 @@ fn interpreted(
     file: &Path,
     sources: &dyn Sources,
     mut problems: Problems,
+    laws: &Arc<[Law]>,
 ) -> Result<Reading, Problems> {
     // What a broken file seems to say is not worth reporting: its syntax comes first.
     if let (true, Raw::Table(entries)) = (problems.list.is_empty(), &root.value) {
@@ -390,12 +449,14 @@ fn interpreted(
             }
         }
         let renamed = short.as_ref().map_or(&[][..], |(_, renamed)| renamed);
-        match case::case(&mut values, &files) {
+        let signals = Signals::new(laws);
+        match case::case(&mut values, &files, &signals) {
             Ok(mut case) if problems.list.is_empty() => {
                 case.cautions.append(&mut cautions);
                 let files = files.into_contents();
                 let (file, sources) = (file.to_owned(), problems.sources);
-                return Ok(Reading { case, file, root, values, short, sources, files });
+                let laws = Arc::clone(laws);
+                return Ok(Reading { case, file, root, values, short, sources, files, laws, signals });
             }
             Ok(_) => {}
             Err(faults) => report(faults, &values, renamed, &mut problems),

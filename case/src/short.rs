@@ -20,6 +20,7 @@ use super::kinds::cross_section::{Assumed, Section};
 use super::kinds::damping::DAMPING;
 use super::kinds::load::{self, LOAD};
 use super::kinds::obstacle::Stop;
+use super::laws::Signals;
 use super::layout::{
     self, BASIS, INITIAL, MODEL_ON_HUB, ModelOnHub, OUTPUT, OneBeam, RUN, Recorded, SECTION,
 };
@@ -165,7 +166,8 @@ fn start(motion: Option<&Drive>, is_constant: bool) -> Start {
 pub(super) fn long(lines: &[Line], v: &Values, files: &Files<'_>) -> Made<Long> {
     let mut found = Found::default();
     let cautions = RefCell::default();
-    let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions };
+    let signals = &Signals::default();
+    let c = &Context { length: None, duration: None, parts: None, files, cautions: &cautions, signals };
     let OneBeam { pitch, precone, .. } = layout::BEAM.read(v, c)?;
     let duration = RUN.read(v, c)?.duration.unwrap_or(0.0);
     let length = found.part(length(v, c));

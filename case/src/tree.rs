@@ -176,7 +176,7 @@ pub(super) fn change(root: &mut Node, change: &Change, problems: &mut Problems) 
 /// Adds a load, a table of TOML, to those of a case; a silent one has the amplitude zero.
 pub(super) fn push_load(root: &mut Node, load: &str, silent: bool, problems: &mut Problems) {
     let source = problems.sources.len();
-    problems.sources.push(Source { name: "load of an input".to_owned(), text: load.to_owned() });
+    problems.sources.push(Source { name: "load of an input or a law".to_owned(), text: load.to_owned() });
     let all = Place::new(source, 0..load.len());
     let (parsed, errors) = DeValue::parse_recoverable(load);
     if let Some(error) = errors.first() {
@@ -186,6 +186,12 @@ pub(super) fn push_load(root: &mut Node, load: &str, silent: bool, problems: &mu
     let mut node = convert(&parsed, source, 0, problems);
     let line = |key: &str, node: Node| Line { key: key.to_owned(), place: all.clone(), node };
     if let (Raw::Table(entries), true) = (&mut node.value, silent) {
+        if let Some(own) = entries.iter().find(|entry| entry.key == "amplitude") {
+            let message = "is what an input or a law gives";
+            problems
+                .push(Problem::new("load.amplitude", Some(own.place.clone()), message).help("leave it out"));
+            return;
+        }
         let text =
             |key: &str, text: &str| line(key, Node { place: all.clone(), value: Raw::Text(text.to_owned()) });
         let zero = Raw::Table(vec![text("kind", "expression"), text("formula", "0")]);
@@ -199,6 +205,18 @@ pub(super) fn push_load(root: &mut Node, load: &str, silent: bool, problems: &mu
         None => {
             let list = Node { place: all.clone(), value: Raw::List(vec![node]) };
             entries.push(line("load", list));
+        }
+    }
+}
+
+/// Takes the last loads away.
+pub(super) fn pop_loads(root: &mut Node, count: usize) {
+    let Raw::Table(entries) = &mut root.value else { return };
+    let Some(at) = entries.iter().position(|entry| entry.key == "load") else { return };
+    if let Raw::List(list) = &mut entries[at].node.value {
+        list.truncate(list.len() - count.min(list.len()));
+        if count > 0 && list.is_empty() {
+            entries.remove(at);
         }
     }
 }

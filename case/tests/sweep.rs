@@ -288,6 +288,40 @@ fn shards_and_threads_and_torn_parts_leave_the_same_rows() {
     assert_eq!(parts(whole.path()).len(), 7);
 }
 
+/// A process may be ended at any byte of a part, its footer too, and before or behind the renaming.
+#[test]
+fn a_part_that_ends_at_any_byte_is_no_part_and_one_that_was_not_renamed_is_made_again() {
+    let sweep = made(vary(&["section.modulus=60 GPa:80 GPa:6"]), Options { part: Some(3), ..PLAIN }).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    kept(&sweep, folder.path(), How::default());
+    let rows = lines(folder.path());
+    let all = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().path());
+    let mut parts: Vec<_> = all.filter(|path| path.extension().is_some_and(|end| end == "parquet")).collect();
+    parts.sort();
+    let whole = fs::read(&parts[1]).unwrap();
+    assert_eq!(sweep.kept_parts(folder.path()), [0, 1]);
+    for end in 0..whole.len() {
+        // What a file system has not written behind it is not there, or zeros.
+        let mut zeros = whole[..end].to_vec();
+        fs::write(&parts[1], &zeros).unwrap();
+        assert_eq!(sweep.kept_parts(folder.path()), [0], "{end} of {} bytes", whole.len());
+        if end < whole.len() - 8 {
+            zeros.resize(whole.len(), 0);
+            fs::write(&parts[1], &zeros).unwrap();
+            assert_eq!(sweep.kept_parts(folder.path()), [0], "zeros behind {end} of {} bytes", whole.len());
+        }
+    }
+    let name = parts[1].file_name().unwrap().to_str().unwrap();
+    let left = folder.path().join(format!(".{name}-1.new"));
+    fs::remove_file(&parts[1]).unwrap();
+    for bytes in [&whole[..], &whole[..whole.len() / 2]] {
+        fs::write(&left, bytes).unwrap();
+        assert_eq!(kept(&sweep, folder.path(), How::default()).found, 3);
+        assert_eq!((lines(folder.path()), left.exists()), (rows.clone(), false));
+        fs::remove_file(&parts[1]).unwrap();
+    }
+}
+
 #[test]
 fn a_folder_of_another_sweep_is_refused_with_the_difference() {
     let folder = tempfile::tempdir().unwrap();

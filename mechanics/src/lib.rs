@@ -84,6 +84,7 @@
 //! | prescribe a motion, a torque or a load in time | [`profile`] | [`profile::Profile`] |
 //! | make a beam on a rotating hub, with its loads | [`hub_beam`] | [`hub_beam::Coupling`] |
 //! | let forces depend on place and velocity | [`law`] | [`law::ForceLaw`] |
+//! | let torques and loads follow from the motion | [`command`] | [`command::Command`] |
 //! | join and drive bodies and beams in space | [`multibody`] | [`section::BladeSection`] |
 //! | write a model of one's own | [`system`] | [`system::Dynamics`], [`system::Events`], [`system::Steady`], [`system::Observed`] |
 //! | integrate in time | [`integrator`] | [`integrator::Integrator`], [`integrator::Stepper`] |
@@ -103,6 +104,7 @@
 
 pub mod analysis;
 pub mod basis;
+pub mod command;
 pub mod contact;
 pub mod drive;
 pub mod exact;

@@ -3,6 +3,7 @@
 mod architecture;
 mod basis_orders;
 mod campbell;
+mod command;
 mod drag;
 mod errors;
 mod high_coupling;

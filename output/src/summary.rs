@@ -86,6 +86,8 @@ pub struct RunReport<'a> {
     pub cpu_time: Option<f64>,
     /// The part of both in which the model was built and its start found \[s\].
     pub preparation: (f64, Option<f64>),
+    /// Names of the laws of a program, which no file holds.
+    pub laws: &'a [String],
 }
 
 /// A summary: keys in the order in which they were added, no number that is not finite (`null` instead).
@@ -135,6 +137,9 @@ impl Summary {
             s.insert("events", to_json(events));
         }
         s.insert("warnings", report.warnings);
+        if !report.laws.is_empty() {
+            s.insert("laws", report.laws);
+        }
         let info = report.integrator.info;
         let mut integrator = Map::new();
         integrator.insert("name".into(), info.name.into());
@@ -241,6 +246,7 @@ pub(super) mod tests {
             wall_time: 0.25,
             cpu_time: None,
             preparation: (0.05, None),
+            laws: &[],
         }
     }
 

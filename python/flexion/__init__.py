@@ -21,12 +21,14 @@ from ._errors import (
     SweepError,
 )
 from ._figure import Figure
+from ._law import Law, law, sampled
 from ._linear import Linear, Stiffness
-from ._run import Column, Event, Run, Trust, View, load
+from ._run import Column, Event, Run, Trust, load
 from ._statics import LoadPath
 from ._sweep import Sweep, sweep
 from ._value import Value
 from ._vibration import Branch, Crossing, Diagram, Mode, Modes, Resonance
+from ._view import View
 
 __version__ = version()
 
@@ -47,6 +49,7 @@ __all__ = [
     "FlexionWarning",
     "InternalError",
     "Interrupted",
+    "Law",
     "Linear",
     "LoadPath",
     "Mode",
@@ -63,8 +66,10 @@ __all__ = [
     "View",
     "__version__",
     "compare",
+    "law",
     "load",
     "plot",
+    "sampled",
     "schema",
     "sweep",
 ]

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _core
 from ._errors import Interrupted, RunError, warn
+from ._law import Function, Law, given
 from ._linear import Linear, Stiffness
 from ._progress import Event, Progress
 from ._run import Run
@@ -20,6 +20,7 @@ from ._statics import LoadPath
 from ._vibration import Diagram, Modes
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from . import keys
 
 Stop: TypeAlias = Event | Callable[[], bool] | None
@@ -128,6 +129,7 @@ class Case:
         errors: str = "auto",
         tolerance: float | str | None = None,
         quantity: str | None = None,
+        laws: Mapping[str, Law | Function] | None = None,
         name: str | None = None,
         progress: bool | None = None,
         stop: Stop = None,
@@ -137,6 +139,9 @@ class Case:
         ``until`` stops it behind the step that reaches this time [s]. ``errors`` estimates the errors of all columns: ``"off"``,
         ``"auto"`` (where that costs a few times the run) or ``"full"``. ``tolerance`` refines mesh and steps until the error is
         below it, a part of the largest value or a text with a unit, of ``quantity``, ``"tip.deflection.min"``, or of all principal columns.
+        ``laws`` are functions that give torques or factors of loads, made by :func:`flexion.law` and :func:`flexion.sampled`: ``"hub.torque"`` is that of a free hub,
+        ``"NAME.torque"`` and ``"NAME.thrust"`` those of joints, on top of what the case says of the motor; a law with a load has any other name.
+        What they give is in the columns ``law.NAME``. They belong to the run and stand in no file.
         ``name`` stands in legends, by default the title of the case. ``progress`` shows a bar, by default on a terminal and in a notebook. ``stop`` ends
         the run: an event or a function.
 
@@ -145,12 +150,17 @@ class Case:
         bar = Progress(progress, stop)
         asked = None if tolerance is None else str(tolerance)
         try:
-            core, raised = self._case.run(until, errors, asked, quantity, bar)
+            core, raised, by_law = self._case.run(until, errors, asked, quantity, given(laws), bar)
         finally:
             bar.close()
         run = Run(core, json.loads(core.summary()), name or self.title or self.file.stem, None)
+        if by_law is not None and (isinstance(by_law, KeyboardInterrupt) or not isinstance(by_law, Exception)):
+            raised = by_law
         _raise(raised, run)
         warn(run.warnings)
+        if by_law is not None:
+            said = run.message if run.status == "failed" else None
+            raise RunError(said or f"a law raised {by_law!r} in a run that estimates the errors", run) from by_law
         if run.status == "failed":
             raise RunError(run.message or "the run failed", run)
         if core.refused is not None and run.status != "stopped":

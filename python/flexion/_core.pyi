@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 _Array: TypeAlias = npt.NDArray[np.float64]
 _Notify: TypeAlias = Callable[[float, str], bool] | None
+_Law: TypeAlias = Callable[[float, tuple[float, ...]], float]
 _Described: TypeAlias = list[tuple[str, str, str, str]]
 _Extremes: TypeAlias = tuple[float, float, float, float, float]
 _ModeRow: TypeAlias = tuple[complex, float | None, int, float, str, str]
@@ -54,8 +55,11 @@ class Case:
         errors: str,
         tolerance: str | None,
         quantity: str | None,
+        laws: list[
+            tuple[str, Mapping[str, Any] | None, list[str], float | None, list[float], Callable[[], _Law]]
+        ],
         notify: _Notify,
-    ) -> tuple[Run, BaseException | None]: ...
+    ) -> tuple[Run, BaseException | None, BaseException | None]: ...
     def modes(self, speed: float, count: int, free_hub: bool, unit: str) -> Modes: ...
     def campbell(
         self,

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import gzip
-import html
 import json
 import os
 from collections.abc import Iterator, Mapping, Sequence
@@ -14,20 +11,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _core
 from ._figure import Figure
 from ._shown import html_table, text_table
 from ._value import Value
+from ._view import View
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     import pandas
     import xarray
 
     from ._case import Case
 
-Array = npt.NDArray[np.float64]
+Array: TypeAlias = "npt.NDArray[np.float64]"
 
 
 class Column:
@@ -298,39 +296,6 @@ class Run(Mapping[str, Column]):
 
     def _repr_html_(self) -> str:
         return html_table(self._table(), repr(self)[1:-1], self.warnings)
-
-
-_UNPACK = """<!doctype html><meta charset="utf-8"><script>
-const bytes = Uint8Array.from(atob("PACKED"), c => c.charCodeAt(0));
-const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
-new Response(stream).text().then(page => { document.open(); document.write(page); document.close(); });
-</script>"""
-"""A page that unpacks another: half the size in a notebook."""
-
-
-class View:
-    """A page that plays a motion; a notebook shows it in a frame that can run its script and nothing else."""
-
-    __slots__ = ("html",)
-
-    def __init__(self, html: str) -> None:
-        self.html = html
-        """The page, which needs no server and no network."""
-
-    def save(self, path: str | os.PathLike[str]) -> Path:
-        """Writes the page to a file."""
-        path = Path(path)
-        path.write_text(self.html, encoding="utf-8")
-        return path
-
-    def _repr_html_(self) -> str:
-        packed = base64.b64encode(gzip.compress(self.html.encode(), 9, mtime=0)).decode()
-        page = html.escape(_UNPACK.replace("PACKED", packed), quote=True)
-        style = "width:100%;height:560px;border:0"
-        return f'<iframe sandbox="allow-scripts" style="{style}" srcdoc="{page}"></iframe>'
-
-    def __repr__(self) -> str:
-        return "<flexion.View: show it in a notebook, or save it by .save(path)>"
 
 
 def _events(path: Path) -> tuple[Event, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -22,6 +21,8 @@ def text_table(rows: Sequence[Row]) -> str:
 
 def html_table(rows: Sequence[Row], title: str = "", warnings: Iterable[str] = ()) -> str:
     """The same for a notebook, the first row as a head, with a title above and warnings below."""
+
+    import html
 
     def line(row: Row, cell: str) -> str:
         return "<tr>" + "".join(f"<{cell}>{html.escape(of)}</{cell}>" for of in row) + "</tr>"

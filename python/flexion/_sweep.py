@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import csv
 import functools
-import io
 import os
-import tempfile
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _core
 from ._case import Case, Stop
@@ -22,6 +17,9 @@ from ._progress import Progress
 from ._shown import html_table
 
 if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    import numpy.typing as npt
     import pandas
 
 Vary = Mapping[str, Any]
@@ -57,7 +55,7 @@ class _Plan(NamedTuple):
         return _core.Sweep(case._case, list(vary), table, sample, list(quantities), errors, limit, part)
 
 
-class Sweep(Mapping[str, npt.NDArray[Any]]):
+class Sweep(Mapping[str, "npt.NDArray[Any]"]):
     """The rows of a sweep: its columns by name, with or without the unit, as arrays in the order of the rows.
 
     Beside the inputs and the quantities there are ``status``, ``reason``, ``trusted_until``, ``warnings``, ``steps`` and ``wall_time``; of a
@@ -162,6 +160,8 @@ def sweep(
     plan = _Plan(case, written, _table(table), drawn, asked, errors, limit, part)
     made = plan.made()
     bar = Progress(progress, stop)
+    import tempfile
+
     with tempfile.TemporaryDirectory() as scratch:
         place = Path(scratch) / "sweep" if folder is None else Path(folder)
         try:
@@ -226,6 +226,9 @@ def _table(table: Any) -> tuple[str, str] | None:
         if any(list(row) != names for row in listed):
             raise ValueError("the rows of a table have the same keys in the same order")
         rows = [tuple(row.values()) for row in listed]
+    import csv
+    import io
+
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(names)
@@ -251,6 +254,8 @@ def _compute(packed: bytes, part: int, folder: str, manifest: bytes) -> list[tup
     if stated.is_file() and stated.read_bytes() == manifest:
         made.run(folder, 1, part, True, None)
         return []
+    import tempfile
+
     with tempfile.TemporaryDirectory() as scratch:
         made.run(scratch, 1, part, True, None)
         return [(path.name, path.read_bytes()) for path in Path(scratch).glob("part-*.parquet")]
@@ -269,6 +274,8 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
     kept = set(made.kept_parts(folder))
     missing = [part for part in range(made.parts) if part not in kept]
     done = len(kept)
+    from concurrent.futures import FIRST_COMPLETED, CancelledError, wait
+
     waiting: dict[Future[Any], tuple[int, int]] = {}
 
     def submit(part: int, tries: int) -> None:

@@ -4,7 +4,7 @@ use super::path::LoadPath;
 use super::run::Run;
 use super::vibration::{Diagram, Modes, units};
 use super::watch::{Watch, guarded};
-use super::{faults, linear, value};
+use super::{faults, law, linear, value};
 use flexion_case::{Contents, DiagramRequest, Effort, Reading, Target};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -132,7 +132,8 @@ impl Case {
         prepared.map_err(|problems| faults::problems(py, &problems))
     }
 
-    #[pyo3(signature = (until, errors, tolerance, quantity, notify))]
+    /// Runs the case; beside the run stands what was raised meanwhile, and by a law.
+    #[pyo3(signature = (until, errors, tolerance, quantity, laws, notify))]
     fn run(
         &self,
         py: Python<'_>,
@@ -140,14 +141,25 @@ impl Case {
         errors: &str,
         tolerance: Option<String>,
         quantity: Option<String>,
+        laws: Vec<law::Given<'_>>,
         notify: Option<Py<PyAny>>,
-    ) -> PyResult<(Run, Option<PyErr>)> {
+    ) -> PyResult<(Run, Option<PyErr>, Option<PyErr>)> {
         let request = flexion_case::Request {
             until: until.unwrap_or(f64::INFINITY),
             effort: effort(errors)?,
             target: target(tolerance, quantity)?,
         };
-        Run::of(py, &self.reading, &request, Watch::new(notify))
+        if laws.is_empty() {
+            let (run, raised) = Run::of(py, &self.reading, &request, Watch::new(notify))?;
+            return Ok((run, raised, None));
+        }
+        let (laws, by_law) = law::laws(laws)?;
+        let reading = guarded(py, || self.reading.with_laws(laws))?;
+        let reading = Arc::new(reading.map_err(|problems| faults::problems(py, &problems))?);
+        let of_law = || by_law.lock().ok().and_then(|mut raised| raised.take());
+        let (run, raised) =
+            Run::of(py, &reading, &request, Watch::new(notify)).map_err(|error| of_law().unwrap_or(error))?;
+        Ok((run, raised, of_law()))
     }
 
     fn modes(&self, py: Python<'_>, speed: f64, count: usize, free_hub: bool, unit: &str) -> PyResult<Modes> {

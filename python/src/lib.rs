@@ -6,6 +6,7 @@ mod case;
 mod columns;
 mod faults;
 mod figure;
+mod law;
 mod linear;
 mod path;
 mod run;

@@ -108,9 +108,15 @@ impl Run {
         self.reading.summary(&self.run).to_json()
     }
 
-    /// The case, refined where that was asked.
-    fn case(&self) -> super::case::Case {
-        super::case::Case { reading: Arc::clone(&self.reading) }
+    /// The case, refined where that was asked, without laws of Python.
+    fn case(&self, py: Python<'_>) -> PyResult<super::case::Case> {
+        let reading = if self.reading.laws().is_empty() {
+            Arc::clone(&self.reading)
+        } else {
+            let without = guarded(py, || self.reading.without_laws())?;
+            Arc::new(without.map_err(|problems| faults::problems(py, &problems))?)
+        };
+        Ok(super::case::Case { reading })
     }
 
     fn events(&self) -> Vec<Event> {

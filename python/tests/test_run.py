@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import base64
 import gc
+import gzip
+import html
 import json
 import os
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -13,6 +17,7 @@ import threading
 import time
 import warnings
 from pathlib import Path
+from typing import Any
 
 import flexion
 import numpy as np
@@ -144,6 +149,7 @@ def test_frames_and_figures(arm: flexion.Case, tmp_path: Path) -> None:
     assert "<table>" in run._repr_html_() and run.plot()._repr_svg_().startswith("<svg")
     view = run.view()
     assert "<html" in view.html and 'sandbox="allow-scripts"' in view._repr_html_()
+    assert len(view._repr_html_()) <= 300_000
     other = arm.with_("model.coupling", "exact").run(errors="off", name="exact one")
     assert other.name == "exact one" and "exact one" in flexion.plot(run, other)._repr_svg_()
     assert flexion.plot(run, other, columns=["tip.deflection"])._repr_svg_().startswith("<svg")
@@ -290,3 +296,46 @@ def test_the_program_prints_values_for_scripts(program: list[str], verification:
     assert float(rows[0][4]) == least.time
     refused = subprocess.run([*words, "--force", "--print", "tip.deflektion"], capture_output=True, text=True)
     assert refused.returncode == 1 and "did you mean `tip.deflection`" in refused.stderr
+
+
+def results_of(page: str) -> dict[str, Any]:
+    start = page.index('id="results">') + len('id="results">')
+    results: dict[str, Any] = json.loads(page[start : page.index("</script>", start)])
+    return results
+
+
+def values_of(text: str) -> Any:
+    kind, _, data = text.partition(":")
+    return np.frombuffer(base64.b64decode(data), f"<{kind}")
+
+
+def test_a_cell_shows_the_motion_of_the_page_to_three_digits(verification: Path) -> None:
+    view = flexion.Case(verification / "p1_spin_up_4").run(errors="off").view()
+    cell = html.unescape(view._repr_html_())
+    packed = re.search(r'atob\("([^"]+)"\)', cell)
+    assert packed is not None and len(cell) < 300_000 < len(view.html)
+    shown, whole = (results_of(page) for page in (gzip.decompress(base64.b64decode(packed[1])).decode(), view.html))
+    assert shown["title"] == whole["title"] and shown["scene"].keys() == whole["scene"].keys()
+    times, all_times = (values_of(of["scene"]["time"]["values"]) for of in (shown, whole))
+    assert 50 < len(times) < len(all_times) and times[-1] == all_times[-1]
+    kept = np.searchsorted(all_times, times)
+    a, b = (
+        values_of(of["scene"]["beam.displacement"]["values"]).reshape(of["scene"]["beam.displacement"]["shape"])
+        for of in (shown, whole)
+    )
+    assert np.max(np.abs(a - b[kept])) <= np.max(np.abs(b)) / 4096
+    curves, all_curves = shown["curves"], whole["curves"]
+    kept = np.searchsorted(values_of(all_curves["times"]), values_of(curves["times"]))
+    for a, b in zip(curves["columns"], all_curves["columns"], strict=True):
+        assert a["name"] == b["name"]
+        a, b = values_of(a["values"]), values_of(b["values"])
+        assert np.max(np.abs(a - b[kept])) <= np.max(np.abs(b)) / 4096
+
+
+def test_the_import_loads_nothing_that_only_some_need() -> None:
+    code = "import numpy, sys; before = set(sys.modules); import flexion; print(*sorted(set(sys.modules) - before))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    loaded = {name.partition(".")[0] for name in done.stdout.split()}
+    heavy = {"matplotlib", "pandas", "scipy", "dask", "distributed", "xarray", "polars", "duckdb", "IPython", "tqdm"}
+    of_python = {"asyncio", "concurrent", "multiprocessing", "tempfile", "logging", "csv", "html", "gzip", "pickle"}
+    assert not loaded & heavy and not loaded & of_python, loaded

@@ -195,6 +195,43 @@ def test_a_sweep_that_is_killed_goes_on(arm: flexion.Case, tmp_path: Path) -> No
     assert all((folder / name).stat().st_mtime_ns == stamp for name, stamp in whole.items())
 
 
+FULL = """
+import flexion, numpy as np, resource, sys
+arm = flexion.Case(sys.argv[1])
+resource.setrlimit(resource.RLIMIT_FSIZE, (int(sys.argv[3]), int(sys.argv[3])))
+try:
+    flexion.sweep(arm, {"section.modulus": np.linspace(60e9, 80e9, 40)}, "tip.deflection.min", errors="none", folder=sys.argv[2], part=5)
+except OSError as error:
+    print(type(error).__name__, error)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+def test_a_disk_that_is_full_takes_no_part_that_is_there(arm: flexion.Case, tmp_path: Path) -> None:
+    (tmp_path / "arm.toml").write_text(str(arm))
+    case, folder = flexion.Case(tmp_path / "arm.toml"), tmp_path / "sweep"
+    vary = {"section.modulus": np.linspace(60e9, 80e9, 40)}
+    expected = flexion.sweep(case, vary, QUANTITY, errors="none", folder=folder, part=5)
+    parts = sorted(folder.glob("part-*.parquet"))
+    size = max(path.stat().st_size for path in parts)
+    tables = [path for path in folder.iterdir() if path.is_file() and path.stat().st_size > size]
+    for path in [*parts[3:], *tables]:
+        path.unlink()
+    stamps = {path: path.stat().st_mtime_ns for path in parts[:3]}
+    # No part fits, and then each of them does, but the table of all rows does not.
+    for most, there in ((size // 2, 3), (size, 8)):
+        words = [sys.executable, "-c", FULL, str(tmp_path / "arm.toml"), str(folder), str(most)]
+        done = subprocess.run(words, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stderr
+        if there == 3 or tables:
+            assert done.stdout.startswith("OSError") and str(folder) in done.stdout, done.stdout
+        assert len(list(folder.glob("part-*.parquet"))) == there
+        assert not list(folder.glob(".*.new")) and not [path for path in tables if path.exists()]
+        assert all(path.stat().st_mtime_ns == stamp for path, stamp in stamps.items())
+    assert_same(flexion.sweep(case, vary, QUANTITY, errors="none", folder=folder, part=5), expected)
+    assert all(path.stat().st_mtime_ns == stamp for path, stamp in stamps.items())
+
+
 class Careless(ThreadPoolExecutor):
     """Loses every other task."""
 

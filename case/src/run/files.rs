@@ -38,16 +38,32 @@ impl Reading {
         let attachments = Attachments {
             figure: figure.as_ref(),
             tables: &run.tables,
-            state: Some((&run.checkpoint, &identity)),
+            // What laws of a program remember is in no file.
+            state: self.laws().is_empty().then_some((&run.checkpoint, identity.as_str())),
             shapes: run.shapes.as_ref(),
             scene: Some(&run.scene),
             solids: self.case.space().is_some() && self.case.output.vtk.is_some(),
         };
-        let case = self.resolved_with_copies();
+        let case = self.saved();
         let warnings: Vec<String> = run.all_warnings().map(str::to_owned).collect();
         self.report(run, &warnings, |report| {
             write_run(directory, report, &run.trajectory, &case, attachments)
         })
+    }
+
+    /// The case as it is written beside its results: without the laws of a program, which it names.
+    fn saved(&self) -> String {
+        if self.laws().is_empty() {
+            return self.resolved_with_copies();
+        }
+        let names: Vec<&str> = self.laws().iter().map(|law| law.name.as_str()).collect();
+        let case = self
+            .without_laws()
+            .map_or_else(|_| self.resolved_with_copies(), |case| case.resolved_with_copies());
+        format!(
+            "# The run had laws of a program, which no file holds: {}. This is the case without them.\n{case}",
+            names.join(", ")
+        )
     }
 
     /// Lends what is known of a run.
@@ -69,6 +85,7 @@ impl Reading {
             wall_time: run.wall_time,
             cpu_time: run.cpu_time,
             preparation: run.preparation,
+            laws: &self.laws().iter().map(|law| law.name.clone()).collect::<Vec<_>>(),
         })
     }
 }

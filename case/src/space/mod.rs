@@ -7,6 +7,7 @@ mod spinning;
 mod trapeze;
 
 use crate::blame::{Tables, blamed, leaves_the_plane};
+use crate::driven;
 use crate::fault::{Fault, Found, Made};
 use crate::kind::Context;
 use crate::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
@@ -190,10 +191,14 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let mut beams = beams;
     let names = bodies.as_ref().zip(beams.as_ref()).map(|(bodies, beams)| parts(bodies, beams, &mut found));
     let c = &Context { parts: names.as_ref(), ..*c };
-    let joints = found.part(JOINTS.make(v, c));
+    let mut joints = found.part(JOINTS.make(v, c));
+    if let Some(joints) = &mut joints {
+        found.part(driven::on_joints(c.signals, joints));
+    }
     let springs = found.part(SPRING.make(v, c));
     let masses = found.part(MASS.make(v, c));
-    let loads = found.part(LOAD.make(v, c));
+    let mut loads = found.part(LOAD.make(v, c));
+    loads.iter_mut().for_each(|loads| driven::on_loads(c.signals, loads));
     let contacts = found.part(contacts(v, c));
     let output = OUTPUT_IN_SPACE.read(v, c);
     let stations =

@@ -158,6 +158,7 @@ impl Sweep {
             return Err(error);
         }
         let csv = if stop == Some(Stop::Asked) { None } else { self.merge(folder, &parts)? };
+        parts.tidy();
         Ok(Outcome { totals: keeping.totals, rows, found, stop, csv })
     }
 
@@ -282,9 +283,7 @@ impl Sweep {
             let case = resolved_case(&self.reading.resolved_with_copies());
             write(&folder.join(CASE), |file| file.write_all(case.as_bytes()))?;
         }
-        names.iter().filter(|name| parts.is_left(name)).for_each(|name| {
-            let _ = fs::remove_file(folder.join(name));
-        });
+        parts.tidy();
         Ok(())
     }
 

@@ -99,8 +99,16 @@ impl<'a> Parts<'a> {
         self.folder.join(format!(".{}-{}{NEW}", self.file_name(number), std::process::id()))
     }
 
-    /// Whether a file is what a process left that was ended as it wrote a part that is there by now.
-    pub(super) fn is_left(&self, name: &str) -> bool {
+    /// Takes away what processes left that were ended as they wrote parts that are there by now.
+    pub(super) fn tidy(&self) {
+        let names = fs::read_dir(self.folder).into_iter().flatten();
+        let names = names.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+        names.filter(|name| self.is_left(name)).for_each(|name| {
+            let _ = fs::remove_file(self.folder.join(name));
+        });
+    }
+
+    fn is_left(&self, name: &str) -> bool {
         let of = name.strip_prefix('.').and_then(|name| name.strip_suffix(NEW));
         let part = of.and_then(|name| name.split_once(ENDING)).map(|(part, _)| format!("{part}{ENDING}"));
         part.is_some_and(|part| Parts::is_any(&part) && self.folder.join(part).is_file())

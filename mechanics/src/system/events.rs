@@ -59,6 +59,15 @@ pub trait Events {
         &[]
     }
 
+    /// A run begins at `s`, or goes on from there behind a break or an event: called once each, in order of time. What is held from one break
+    /// to the next is taken here.
+    ///
+    /// # Errors
+    /// Why the run cannot go on.
+    fn pass(&mut self, _s: &State) -> Result<(), Limit> {
+        Ok(())
+    }
+
     /// Writes the impulse p [N·s, N·m·s] that acts at the time of `s` by a jump of a prescribed velocity, and in the entries after
     /// those of the velocities by how much ∂g/∂t of each row jumps; `s` is the state before it: M Δv = p + Gᵀ Λ,
     /// G Δv = −Δ∂g/∂t of the rows of joints. `false` where there is none.

@@ -156,6 +156,14 @@ pub enum Limit {
         /// Names of the contacts.
         contacts: Vec<String>,
     },
+    /// A law of one's own gives nothing.
+    #[error("the law `{name}` {why}")]
+    Command {
+        /// Its name.
+        name: String,
+        /// Why, as the rest of the sentence.
+        why: String,
+    },
     /// What a model of another crate says.
     #[error("{0}")]
     Other(String),

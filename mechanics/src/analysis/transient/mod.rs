@@ -140,6 +140,7 @@ impl Run {
         plan: &Plan,
         observer: &mut dyn Observer,
     ) -> Result<Integration, RunError> {
+        system.pass(state).map_err(|reason| RunError::Ended { time: state.t, reason })?;
         if integrator.resolves_contacts() {
             self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
@@ -273,7 +274,7 @@ impl Run {
             let first = plan
                 .step
                 .unwrap_or_else(|| StepControl::first_step(order, state, system.scales(), 1e-4, span));
-            StepControl::new(order, span, first).with_longest(longest_step(plan, self.origin))
+            StepControl::new(order, span, first).with_longest(plan.longest_from(self.origin))
         });
     }
 
@@ -441,7 +442,7 @@ impl Run {
         let start = last.map_or(self.origin, |b| b.time.max(self.origin));
         let part = (stop.0 - start) / f64::from(plan.break_steps);
         // Where steps are shorter anyway, there is nothing to divide.
-        if part >= longest_step(plan, self.origin) {
+        if part >= plan.longest_from(self.origin) {
             return stop;
         }
         let next = (((t - start) / part + SLIVER).floor() + 1.0) * part + start;
@@ -581,6 +582,7 @@ impl Run {
         for kind in happened {
             observer.event(&Event { time: state.t, kind, modes: state.mode.clone() });
         }
+        system.pass(state).map_err(|reason| RunError::Ended { time: state.t, reason })?;
         integrator.restart(system, state).map_err(|error| failed(system, state, error))?;
         if struck {
             integrator.struck();
@@ -591,10 +593,4 @@ impl Run {
         }
         Ok(())
     }
-}
-
-/// Longest step under control of a run from `origin`. While the drive is constant, the error estimate cannot detect an event inside the
-/// step: what the recorded columns can show bounds it.
-fn longest_step(plan: &Plan, origin: f64) -> f64 {
-    plan.longest_step.unwrap_or((2.0 * plan.sample).min(0.01 * (plan.end - origin)))
 }

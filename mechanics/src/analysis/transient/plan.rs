@@ -52,4 +52,10 @@ impl Plan {
     pub fn with_break_steps(self, steps: u32) -> Plan {
         Plan { break_steps: steps, ..self }
     }
+
+    /// Longest step under control of a run from `origin` \[s\]. While the drive is constant, the error estimate cannot detect an event inside the
+    /// step: what the recorded columns can show bounds it.
+    pub(super) fn longest_from(&self, origin: f64) -> f64 {
+        self.longest_step.unwrap_or((2.0 * self.sample).min(0.01 * (self.end - origin)))
+    }
 }

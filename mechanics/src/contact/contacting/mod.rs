@@ -31,7 +31,7 @@ use super::points::{Curve, Points, Variation};
 use crate::linalg::vector::inner;
 use crate::linalg::{Matrix, Structure, Vec3};
 use crate::system::{
-    Break, Corotation, Crossing, Dynamics, Events, Jump, Mode, NotSet, Observed, Parameter, Power,
+    Break, Corotation, Crossing, Dynamics, Events, Jump, Limit, Mode, NotSet, Observed, Parameter, Power,
     RowWeights, Set, Size, State, Steady, StiffnessForm, VisitRow, Weights, ordered,
 };
 use proximity::Proximity;
@@ -483,6 +483,10 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
 impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
     fn breaks(&self) -> &[Break] {
         &self.breaks
+    }
+
+    fn pass(&mut self, s: &State) -> Result<(), Limit> {
+        self.inner.pass(s)
     }
 
     /// An obstacle whose velocity jumps strikes too, without an impulse of its own.
