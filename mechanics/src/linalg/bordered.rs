@@ -113,6 +113,23 @@ impl<T: Scalar> Bordered<T> {
         }
     }
 
+    /// Calls `f` with the place and the value of every entry that it has room for.
+    pub(super) fn each_mut(&mut self, mut f: impl FnMut(usize, usize, &mut T)) {
+        let (n, lower, upper) = (self.band.order(), self.band.lower(), self.band.upper());
+        for (i, row) in self.band.rows_mut().enumerate() {
+            let first = i.saturating_sub(lower);
+            let within = first..(i + upper + 1).min(n);
+            within.zip(&mut row[first + lower - i..]).for_each(|(j, x)| f(i, j, x));
+        }
+        for k in 0..self.border {
+            let of = k * n..(k + 1) * n;
+            self.columns[of.clone()].iter_mut().enumerate().for_each(|(i, x)| f(i, n + k, x));
+            self.rows[of].iter_mut().enumerate().for_each(|(j, x)| f(n + k, j, x));
+            let corner = &mut self.corner[k * self.border..(k + 1) * self.border];
+            corner.iter_mut().enumerate().for_each(|(j, x)| f(n + k, n + j, x));
+        }
+    }
+
     /// Replaces the content by Σ wₖ Aₖ of real matrices of the same structure.
     pub(super) fn combine(&mut self, terms: [&Bordered<f64>; 3], weights: [T; 3]) {
         self.band.combine(terms.map(|a| &a.band), weights);

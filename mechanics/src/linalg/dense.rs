@@ -54,6 +54,12 @@ impl<T: Scalar> Dense<T> {
         self.data[i * self.n + j] += x;
     }
 
+    /// Calls `f` with the place and the value of every entry.
+    pub(super) fn each_mut(&mut self, mut f: impl FnMut(usize, usize, &mut T)) {
+        let n = self.n.max(1);
+        self.data.iter_mut().enumerate().for_each(|(k, x)| f(k / n, k % n, x));
+    }
+
     /// y = A x, before factoring.
     pub fn multiply(&self, x: &[T], y: &mut [T]) {
         for (row, y) in self.data.chunks_exact(self.n.max(1)).zip(y) {

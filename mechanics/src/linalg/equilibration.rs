@@ -7,7 +7,7 @@
 //!
 //! Source: D. Ruiz, *A scaling algorithm to equilibrate both rows and columns norms in matrices*, RAL-TR-2001-034 (the sweeps).
 
-use super::{Scalar, Storage};
+use super::Scalar;
 
 /// Sweeps over all rows at once: what is left of a factor is its root at each.
 const SWEEPS: usize = 12;
@@ -47,14 +47,6 @@ impl Equilibration {
         }
     }
 
-    /// Replaces A by S A S.
-    pub(super) fn equilibrate<T: Scalar>(&mut self, storage: &mut Storage<T>) {
-        let order = storage.order();
-        self.find(order, |measure| storage.each_mut(|i, j, x| measure(i, j, x.size())));
-        let s = &self.scales;
-        storage.each_mut(|i, j, x| *x = x.times(s[i] * s[j]));
-    }
-
     /// S
     pub(super) fn scales(&self) -> &[f64] {
         &self.scales
@@ -63,43 +55,5 @@ impl Equilibration {
     /// b ← S b
     pub(super) fn scale<T: Scalar>(&self, b: &mut [T]) {
         b.iter_mut().zip(&self.scales).for_each(|(b, s)| *b = b.times(*s));
-    }
-}
-
-impl<T: Scalar> Storage<T> {
-    fn order(&self) -> usize {
-        match self {
-            Storage::Dense(a) => a.order(),
-            Storage::Band(a) => a.order(),
-        }
-    }
-
-    /// Calls `f` with the place and the value of every entry that it has room for.
-    fn each_mut(&mut self, mut f: impl FnMut(usize, usize, &mut T)) {
-        match self {
-            Storage::Dense(a) => {
-                let n = a.order().max(1);
-                a.data_mut().iter_mut().enumerate().for_each(|(k, x)| f(k / n, k % n, x));
-            }
-            Storage::Band(a) => {
-                let (n, all) = (a.band().order(), a.order());
-                let (lower, upper) = (a.band().lower(), a.band().upper());
-                for (i, row) in a.band_mut().rows_mut().enumerate() {
-                    let first = i.saturating_sub(lower);
-                    let within = first..(i + upper + 1).min(n);
-                    within.zip(&mut row[first + lower - i..]).for_each(|(j, x)| f(i, j, x));
-                }
-                for border in n..all {
-                    let k = border - n;
-                    a.column_mut(k).iter_mut().enumerate().for_each(|(i, x)| f(i, border, x));
-                    a.row_mut(k).iter_mut().enumerate().for_each(|(j, x)| f(border, j, x));
-                    for j in n..all {
-                        let mut x = a.get(border, j);
-                        f(border, j, &mut x);
-                        a.set_corner(k, j - n, x);
-                    }
-                }
-            }
-        }
     }
 }

@@ -177,6 +177,14 @@ impl<T: Scalar> Storage<T> {
         }
     }
 
+    /// Calls `f` with the place and the value of every entry that it has room for.
+    fn each_mut(&mut self, f: impl FnMut(usize, usize, &mut T)) {
+        match self {
+            Storage::Dense(a) => a.each_mut(f),
+            Storage::Band(a) => a.each_mut(f),
+        }
+    }
+
     /// Calls `visit` with the places (i, j), j ≥ i, of all entries that it or its mirror image may hold.
     fn mirrors(&self, mut visit: impl FnMut(usize, usize)) {
         let (n, band, half) = match self {
@@ -513,7 +521,10 @@ impl<T: Scalar> Matrix<T> {
         if self.factored {
             return Ok(false);
         }
-        self.units.equilibrate(&mut self.storage);
+        let (order, storage) = (self.order(), &mut self.storage);
+        self.units.find(order, |measure| storage.each_mut(|i, j, x| measure(i, j, x.size())));
+        let s = self.units.scales();
+        storage.each_mut(|i, j, x| *x = x.times(s[i] * s[j]));
         self.factor()?;
         self.equilibrated = true;
         Ok(true)
