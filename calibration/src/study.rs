@@ -115,6 +115,7 @@ pub fn figure(outcomes: &[Outcome]) -> Figure {
         line: Line::None,
         marker: Some(marker),
         color: Some(color),
+        ..Series::default()
     };
     let line = |name: &str, factor: f64, line| Series {
         name: Some(name.to_owned()),

@@ -10,12 +10,8 @@ use flexion_results::plot::{Axis, Figure, Marker, Panel, Series, Words};
 pub fn figure(item: &Item, answers: &Answers<'_>) -> Option<Figure> {
     let panels: Vec<Panel> = item.plots.iter().map(|plot| panel(item, plot, answers)).collect();
     let drawn = panels.iter().any(|panel| !panel.series.is_empty());
-    drawn.then(|| Figure {
-        title: None,
-        columns: if panels.len() > 1 { 2 } else { 1 },
-        panels,
-        share_x: false,
-    })
+    let columns = if panels.len() > 1 { 2 } else { 1 };
+    drawn.then_some(Figure { title: None, columns, panels, share_x: false })
 }
 
 /// A curve of an item, for a table: the run, the column, its values.
@@ -110,9 +106,12 @@ fn over_time(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
     panel
 }
 
+/// The name of a curve, its points, and their errors.
+type Group = (String, Vec<(f64, f64)>, Vec<f64>);
+
 fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
     let mut panel = Panel { x: Axis::new(x, ""), ..Panel::default() };
-    let mut groups: Vec<(String, Vec<(f64, f64)>, Vec<f64>)> = Vec::new();
+    let mut groups: Vec<Group> = Vec::new();
     let mut unit = String::new();
     for (run, number) in points(item, plot, answers) {
         let Some(at) = run.of.get(x).and_then(value_of) else { continue };

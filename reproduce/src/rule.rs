@@ -114,7 +114,7 @@ fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled
                 }
             }
             // One that fails decides, whatever is missing of the others.
-            if each.iter().any(|ruled| *ruled == Ok(Ruled::Fails)) {
+            if each.contains(&Ok(Ruled::Fails)) {
                 return Ok(Ruled::Fails);
             }
             Ok(both(each.into_iter().collect::<Result<Vec<_>, _>>()?))

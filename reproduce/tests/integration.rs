@@ -140,7 +140,8 @@ fn each_kind_of_rule_is_flipped_by_a_changed_case() {
     let many = "set = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4,transverse=4}']";
     let stiff = "set = ['run.duration=6 s', 'section.modulus=700 GPa', 'basis={kind=\"modes\",axial=4,transverse=4}']";
     let breaks = "'model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s'";
-    let changes: [(&[(&str, &str)], [&str; 10]); 2] = [
+    type Changed<'a> = (&'a [(&'a str, &'a str)], [&'a str; 10]);
+    let changes: [Changed<'_>; 2] = [
         (
             &[(many, stiff), (breaks, "'run.duration=7 s'")],
             ["fails", "fails", "fails", "fails", "fails", "fails", "fails", "holds", "holds", "lost"],

@@ -53,7 +53,7 @@ impl Sweep {
         let table = self.given.table.as_ref().map(|table| table.name.as_str());
         let column = |name: &str, unit: &str| json!({ "name": name, "unit": unit });
         let inputs: Vec<Value> = self.inputs.iter().map(|input| column(&input.key, &input.unit)).collect();
-        let quantities: Vec<Value> = self.quantities.iter().map(|of| column(&of.name(), &of.unit)).collect();
+        let quantities: Vec<Value> = self.quantities.iter().map(|of| column(of.name(), &of.unit)).collect();
         json!({
             "kind": "sweep",
             "file": self.reading.file.file_name().map(|name| name.to_string_lossy()),

@@ -56,7 +56,7 @@ pub(super) fn columns(sweep: &Sweep, rows: &[Row]) -> Vec<Named> {
     out.push(("reason".to_owned(), texts(&|row| row.reason.clone())));
     for (i, quantity) in sweep.quantities.iter().enumerate() {
         let (name, unit) = (quantity.name(), quantity.unit.as_str());
-        out.push((with_unit(&name, unit), numbers(&|row| row.quantities[i].map(|of| of.value))));
+        out.push((with_unit(name, unit), numbers(&|row| row.quantities[i].map(|of| of.value))));
         let error = numbers(&|row| row.quantities[i].and_then(|of| of.error));
         out.push((with_unit(&format!("{name}.error"), unit), error));
         out.push((
