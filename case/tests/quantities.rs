@@ -1,5 +1,7 @@
 //! Numbers of a run, asked for by name.
 
+#![allow(clippy::unwrap_used)]
+
 use flexion_case::{Quantity, Reading, Request, Run, read};
 use std::ops::ControlFlow;
 use std::path::Path;
