@@ -1,7 +1,7 @@
 //! The events of a run at its contacts: impacts, and contacts that close, open, slip or stick.
 
-use super::passing::vertex;
 use super::rigid::{Burst, Closed, Rigid};
+use super::trajectory::vertex;
 use crate::analysis::transient::{Event, EventKind};
 use crate::contact::Neglected;
 use crate::integrator::{Checkpoint, NotResumed};

@@ -1,6 +1,6 @@
 //! What a run passes through between its records: extremes of the channels, and how fast it vibrates.
 
-use super::trajectory::{Trajectory, continue_quaternions};
+use super::trajectory::{Trajectory, continue_quaternions, vertex};
 use crate::system::{Channel, Kind, Side, State, System};
 use std::f64::consts::TAU;
 
@@ -371,14 +371,6 @@ fn distance_squared(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     sums.iter().sum::<f64>() + rest_a.iter().zip(rest_b).map(|(a, b)| (a - b) * (a - b)).sum::<f64>()
-}
-
-/// The vertex of the parabola through three points, if it lies between them.
-pub(super) fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
-    let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
-    let bend = (second - first) / (t2 - t0);
-    let t = 0.5 * (t0 + t1) - 0.5 * first / bend;
-    (first * second < 0.0 && t0 < t && t < t2).then_some((t, a + (t - t0) * (first + bend * (t - t1))))
 }
 
 /// Error at `t` of the parabola through three points, by that of the cubic through another one: f[t₋₁, t₀, t₁, t₂] (t − t₀)(t − t₁)(t − t₂).

@@ -1,6 +1,5 @@
 //! What a run recorded: one row of channel values for each recorded time.
 
-use super::passing::vertex;
 use crate::system::{Channel, Kind, Role};
 use std::ops::Range;
 
@@ -68,6 +67,14 @@ pub(super) fn continue_quaternions(first: &[usize], before: &[f64], now: &mut [f
             now.iter_mut().for_each(|x| *x = -*x);
         }
     }
+}
+
+/// The vertex of the parabola through three points, if it lies between them.
+pub(super) fn vertex([(t0, a), (t1, b), (t2, c)]: [(f64, f64); 3]) -> Option<(f64, f64)> {
+    let (first, second) = ((b - a) / (t1 - t0), (c - b) / (t2 - t1));
+    let bend = (second - first) / (t2 - t0);
+    let t = 0.5 * (t0 + t1) - 0.5 * first / bend;
+    (first * second < 0.0 && t0 < t && t < t2).then_some((t, a + (t - t0) * (first + bend * (t - t1))))
 }
 
 impl Trajectory {
