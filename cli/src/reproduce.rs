@@ -88,7 +88,19 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
         });
         bar.finish_and_clear();
         match computed {
-            Ok(computed) => answers.push(computed),
+            Ok(computed) => {
+                let mut faulty = false;
+                for (need, answer) in needs.iter().zip(&computed) {
+                    for fault in answer.iter().flat_map(|answer| &answer.faults) {
+                        faulty = true;
+                        screen::report(&format!("error: {}, run `{}`: {fault}\n", paper.name, need.run.name));
+                    }
+                }
+                if faulty {
+                    return Outcome::Rejected;
+                }
+                answers.push(computed);
+            }
             Err(error) => {
                 screen::report(&format!("{error}\n"));
                 return Outcome::Incomplete;

@@ -194,7 +194,7 @@ fn modes_and_campbell_write_whole_results_and_refuse_what_cannot_be() {
     assert_eq!(all.status.code(), Some(0), "{}", text(&all.stderr));
     assert!(text(&all.stdout).contains("500 modes were asked for"), "{}", text(&all.stdout));
     for (arguments, expected) in [
-        (&["modes", "spin-up", "--speed", "-1"][..], "positive"),
+        (&["modes", "spin-up", "--speed", "nan"][..], "speed"),
         (&["modes", "spin-up", "--speed", "6", "--set", "model.coupling=zeroth"], "buckled"),
         (&["modes", "spin-up", "--free-hub"], "hub is free"),
         (&["campbell", "spin-up", "--speeds", "5:1:3"], "ascend"),

@@ -166,6 +166,17 @@ fn in_time(
             (name, read.and_then(|mut read| read.pop().ok_or_else(|| format!("{name} is no quantity"))))
         })
         .collect();
+    let mut faults: Vec<String> =
+        quantities.values().filter_map(|read| read.as_ref().err().cloned()).collect();
+    let channels = prepared.channels();
+    for name in &need.columns {
+        if channels.iter().all(|channel| channel.name != *name) {
+            let nearest =
+                flexion_results::nearest(name, channels.iter().map(|channel| channel.name.as_str()));
+            let nearest = nearest.map_or(String::new(), |name| format!("; perhaps `{name}`"));
+            faults.push(format!("there is no column `{name}`{nearest}"));
+        }
+    }
     let against = need.run.key.against.as_ref();
     let request = Request { effort: against.is_none().then_some(Effort::Full), ..Request::default() };
     let mut watch =
@@ -192,7 +203,11 @@ fn in_time(
             let value = collected.value;
             // Where the run is asked for with the mesh and the steps that it has.
             let own = itself && !quantity.varies();
-            let error = if own { Some(ROUNDED * value.abs()) } else { collected.error };
+            let error = if own {
+                Some(if value.fract() == 0.0 { 0.0 } else { ROUNDED * value.abs() })
+            } else {
+                collected.error
+            };
             Ok(Valued { value, error, varies: quantity.varies(), unit: quantity.unit })
         });
         (name.clone(), valued)
@@ -226,6 +241,7 @@ fn in_time(
         status: if run.status == Status::Finished { "finished" } else { "failed" }.to_owned(),
         message: run.message.clone(),
         warnings,
+        faults,
         errors,
         values: values.collect(),
         curves: curves.collect(),

@@ -8,6 +8,8 @@ use std::collections::BTreeMap;
 pub struct Described {
     /// The name of its folder, by which it is called.
     pub name: String,
+    /// Where its folder is, for commands and messages.
+    pub place: String,
     /// What it is.
     pub paper: Paper,
     /// Its items in the order of the paper.

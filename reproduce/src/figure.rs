@@ -8,8 +8,13 @@ use flexion_results::plot::{Axis, Figure, Marker, Panel, Series, Words};
 
 /// The figure of an item, where it has one.
 pub fn figure(item: &Item, answers: &Answers<'_>) -> Option<Figure> {
-    let panels: Vec<Panel> = item.plots.iter().map(|plot| panel(item, plot, answers)).collect();
-    let drawn = panels.iter().any(|panel| !panel.series.is_empty());
+    let panels: Vec<Panel> = item
+        .plots
+        .iter()
+        .map(|plot| panel(item, plot, answers))
+        .filter(|panel| !panel.series.is_empty())
+        .collect();
+    let drawn = !panels.is_empty();
     let columns = if panels.len() > 1 { 2 } else { 1 };
     drawn.then_some(Figure { title: None, columns, panels, share_x: false })
 }
@@ -78,7 +83,7 @@ fn panel(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
         panel.y.scale = flexion_results::plot::Scale::Logarithmic;
     }
     panel.words.extend(plot.title.as_ref().map(|title| Words {
-        text: title.clone(),
+        text: unlettered(title).to_owned(),
         outside: true,
         ..Words::default()
     }));
@@ -165,4 +170,10 @@ fn value_of(value: &toml::Value) -> Option<f64> {
         toml::Value::String(text) => text.split_whitespace().next()?.parse().ok(),
         _ => None,
     }
+}
+
+/// A title without its letter: panels have one.
+fn unlettered(title: &str) -> &str {
+    let rest = title.strip_prefix('(').and_then(|rest| rest.split_once(')'));
+    rest.filter(|(letter, _)| letter.len() == 1).map_or(title, |(_, rest)| rest.trim_start())
 }

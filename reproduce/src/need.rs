@@ -1,6 +1,6 @@
 //! What has to be computed for a paper: its runs, each with all that its items ask of it.
 
-use crate::described::{As, Described, Item, OfEnergy, OfModes, OfRun, Rule, Template, Term};
+use crate::described::{As, Claim, Described, Item, OfEnergy, OfModes, OfRun, Rule, Template, Term};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A run, by all that its numbers depend on.
@@ -206,6 +206,13 @@ fn asked(item: &Item) -> (Asked, Asked) {
     (quantities, columns)
 }
 
+/// Whether what a rule gives may differ from run to run, as times of computing do.
+pub fn varies(rule: &Rule) -> bool {
+    let mut varies = false;
+    of_rule(rule, &mut |of| varies |= of.quantity == "work.seconds");
+    varies
+}
+
 /// Shows all terms of a rule.
 fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
     let mut term = |term: &Term| {
@@ -269,8 +276,46 @@ pub fn problems(item: &Item) -> Vec<String> {
     }
     for claim in &item.claims {
         of_rule(&claim.rule, &mut |of| out.extend(both(of.to.is_some(), of.compared.is_some(), &claim.text)));
+        out.extend(unfilled(claim).into_iter().map(|problem| format!("{}: {problem}", claim.text)));
     }
     out
+}
+
+/// The words between braces of the sentences of a claim that its rule does not fill.
+fn unfilled(claim: &Claim) -> Vec<String> {
+    let filled = placeholders(&claim.rule);
+    let sentences = [&claim.holds, &claim.fails, &claim.undecided].into_iter().flatten();
+    let words =
+        sentences.flat_map(|text| text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0)));
+    let unknown = words.filter(|word| filled.iter().all(|known| known != word));
+    let allowed = if filled.is_empty() {
+        "it has none".to_owned()
+    } else {
+        format!("it has {{{}}}", filled.join("}, {"))
+    };
+    unknown.map(|word| format!("its rule gives no {{{word}}} for a sentence; {allowed}")).collect()
+}
+
+/// What a rule gives for sentences; of several rules the first that has a word, and of the second and later ones the word with their number.
+fn placeholders(rule: &Rule) -> Vec<String> {
+    let words: &[&str] = match rule {
+        Rule::Less { .. } => &["left", "right"],
+        Rule::Within { .. } => &["of", "low", "high"],
+        Rule::Agree { .. } | Rule::Grows { .. } | Rule::Falls { .. } => &["least", "most", "first", "last"],
+        Rule::EndsEarly { .. } | Rule::Finishes { .. } | Rule::Lost { .. } => &[],
+        Rule::All { rules } => {
+            let each = rules.iter().enumerate().flat_map(|(i, rule)| {
+                placeholders(rule)
+                    .into_iter()
+                    .flat_map(move |word| [word.clone(), format!("{word}{}", i + 1)])
+            });
+            let mut all: Vec<String> = each.collect();
+            all.sort();
+            all.dedup();
+            return all;
+        }
+    };
+    words.iter().map(|word| (*word).to_owned()).collect()
 }
 
 /// All runs of a paper.

@@ -117,6 +117,7 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
     };
     Ok(Described {
         name: name.to_owned(),
+        place: place.to_owned(),
         items,
         cases: of("cases/", ".toml"),
         drawings: of("", ".svg").into_iter().map(|(name, text)| (format!("{name}.svg"), text)).collect(),

@@ -370,16 +370,19 @@ fn run_details(item: &Item, answers: &Answers<'_>, of: &Reproduced<'_>, name: &s
         return;
     }
     out.raw("<details class=runs><summary>")
-        .text(&format!("{} runs: case, command, errors, warnings", named(item, None).len()));
+        .text(&format!("Runs ({}): case, command, errors, warnings", named(item, None).len()));
     out.raw("</summary>");
     for run in &all {
         out.raw(&format!("<details id=\"{}\"><summary>", run_anchor(name, &run.name)))
             .text(&run.name)
             .raw("</summary>");
-        out.element("pre class=command", &command(run, &of.paper.name));
+        out.element("pre class=command", &command(run, &of.paper.place));
         match answers.get(&run.name) {
             Some((Some(answer), _)) => {
-                let mut said = format!("{}; errors: {}", answer.status, answer.errors);
+                let mut said = answer.status.clone();
+                if !answer.errors.is_empty() {
+                    said = format!("{said}; errors: {}", answer.errors);
+                }
                 if let Some(message) = &answer.message {
                     said = format!("{said}. {message}");
                 }
@@ -422,17 +425,17 @@ fn run_details(item: &Item, answers: &Answers<'_>, of: &Reproduced<'_>, name: &s
 }
 
 /// The command that runs it.
-fn command(run: &Named, paper: &str) -> String {
+fn command(run: &Named, place: &str) -> String {
     let sets: Vec<String> =
         run.key.set.iter().map(|set| format!(" --set '{}'", set.replace('\'', "\""))).collect();
-    let file = format!("papers/{paper}/cases/{}.toml", run.key.case);
+    let file = format!("{place}/cases/{}.toml", run.key.case);
     let (verb, asks) =
         match (&run.modes, &run.energy) {
             (Some(modes), _) => {
                 ("modes", format!(" --speed {} --count {}", crate::need::plain(&modes.speed), modes.count))
             }
             (_, Some(energy)) => return format!(
-                "flexion reproduce {paper}: frequencies by the {:?} strain energy of {file} at the speed {}",
+                "flexion reproduce {place}: frequencies by the {:?} strain energy of {file} at the speed {}",
                 energy.energy,
                 crate::need::plain(&energy.speed)
             )

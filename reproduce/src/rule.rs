@@ -20,7 +20,7 @@ pub enum Ruled {
 }
 
 /// The values of a rule, by the names under which sentences have them.
-pub type Words = Vec<(&'static str, String)>;
+pub type Words = Vec<(String, String)>;
 
 /// The terms of a rule over several runs.
 pub fn terms(rule: &Rule) -> Vec<OfRun> {
@@ -61,13 +61,13 @@ fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled
         Rule::Lost { because } => Ok(Ruled::Lost(because.clone())),
         Rule::Less { left, right } => {
             let (left_is, right_is) = (number(left, answers)?, number(right, answers)?);
-            words.push(("{left}", said(left, &left_is)));
-            words.push(("{right}", said(right, &right_is)));
+            words.push(("{left}".to_owned(), said(left, &left_is)));
+            words.push(("{right}".to_owned(), said(right, &right_is)));
             Ok(less(&left_is, &right_is))
         }
         Rule::Within { of, low, high } => {
             let value = number(of, answers)?;
-            words.push(("{of}", shown(&value)));
+            words.push(("{of}".to_owned(), shown(&value)));
             let bound = |value: f64| Number {
                 value,
                 error: Some(0.0),
@@ -75,8 +75,8 @@ fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled
                 part: false,
                 varies: false,
             };
-            words.push(("{low}", plain(*low)));
-            words.push(("{high}", plain(*high)));
+            words.push(("{low}".to_owned(), plain(*low)));
+            words.push(("{high}".to_owned(), plain(*high)));
             Ok(both([less(&bound(*low), &value), less(&value, &bound(*high))]))
         }
         Rule::Agree { within, .. } => {
@@ -104,12 +104,13 @@ fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled
         }
         Rule::All { rules } => {
             let mut each = Vec::new();
-            for rule in rules {
+            for (i, rule) in rules.iter().enumerate() {
                 let mut own = Words::new();
                 each.push(decide(rule, answers, &mut own));
-                for word in own {
-                    if words.iter().all(|(name, _)| *name != word.0) {
-                        words.push(word);
+                for (name, value) in own {
+                    words.push((name.replace('}', &format!("{}}}", i + 1)), value.clone()));
+                    if words.iter().all(|(known, _)| *known != name) {
+                        words.push((name, value));
                     }
                 }
             }
@@ -130,10 +131,10 @@ fn numbers(rule: &Rule, answers: &Answers<'_>) -> Result<Vec<Number>, Missing> {
 fn extremes(found: &[Number], words: &mut Words) {
     let order = |a: &&Number, b: &&Number| a.value.total_cmp(&b.value);
     let of = |number: Option<&Number>| number.map_or(String::new(), shown);
-    words.push(("{least}", of(found.iter().min_by(order))));
-    words.push(("{most}", of(found.iter().max_by(order))));
-    words.push(("{first}", of(found.first())));
-    words.push(("{last}", of(found.last())));
+    words.push(("{least}".to_owned(), of(found.iter().min_by(order))));
+    words.push(("{most}".to_owned(), of(found.iter().max_by(order))));
+    words.push(("{first}".to_owned(), of(found.first())));
+    words.push(("{last}".to_owned(), of(found.last())));
 }
 
 /// A number as it was written, or as it was found.

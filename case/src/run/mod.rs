@@ -357,7 +357,7 @@ impl Prepared {
     }
 
     /// The columns that the run will record.
-    pub(crate) fn channels(&mut self) -> Vec<Channel> {
+    pub fn channels(&mut self) -> Vec<Channel> {
         let columns = Columns { energy_balance: self.energy_balance, modal_shares: self.modal_shares };
         let recorder = Recorder::new(self.live.system.as_mut(), &self.state, &self.plan, columns);
         recorder.channels().to_vec()
