@@ -78,6 +78,18 @@ fn touches_and_impulses_are_those_of_the_events() {
     assert!(against.error.is_some_and(|error| error < 1e-5), "{against:?}");
 }
 
+/// Between two records a value is one of the line between them, and its error would not say so.
+#[test]
+fn values_between_records_are_refused() {
+    let reading = case("p1_spin_up_4", &["run.duration=2 s"]);
+    let names = ["tip.deflection.at@1.013", "tip.deflection.min@0..1.013", "tip.deflection.min@0.5..1"];
+    let (run, quantities) = run(&reading, &names, &Request { effort: None, ..Request::default() });
+    for quantity in &quantities[..2] {
+        assert!(quantity.collect(&run).unwrap_err().contains("between two records"), "{quantity:?}");
+    }
+    assert!(quantities[2].collect(&run).is_ok());
+}
+
 #[test]
 fn what_is_no_quantity_is_refused_with_the_nearest_name() {
     let reading = case("p1_spin_up_4", &[]);

@@ -210,6 +210,13 @@ fn take(out: &mut Vec<Asked>, folder: Option<PathBuf>, paper: Described, item: O
         ));
         return false;
     }
+    if out.iter().any(|of| of.paper.name == paper.name && of.folder != folder) {
+        screen::report(&format!(
+            "error: two papers are called {}: their results would replace each other\n",
+            paper.name
+        ));
+        return false;
+    }
     let items = item.map_or(there, |item| vec![item]);
     match out.iter_mut().find(|of| of.paper.name == paper.name && of.folder == folder) {
         Some(of) => of.items.extend(items),

@@ -66,12 +66,22 @@ impl Answer {
         self.status == "finished"
     }
 
+    /// Whether a quantity is what a run did until its end, wherever that is.
+    fn counts(&self, quantity: &str) -> bool {
+        quantity.starts_with("work.") || quantity.starts_with("run.")
+    }
+
     /// A quantity, or why there is none.
     ///
     /// # Errors
     /// Why there is none.
     pub fn value(&self, quantity: &str) -> Result<&Valued, String> {
         match self.values.get(quantity) {
+            // Of a part of a run nothing follows for the whole.
+            Some(Ok(_)) if !self.finished() && !quantity.contains(['@']) && !self.counts(quantity) => {
+                let why = self.message.as_deref().unwrap_or("it was stopped");
+                Err(format!("the run ended early, and {quantity} is of the whole: {why}"))
+            }
             Some(Ok(value)) => Ok(value),
             Some(Err(why)) => Err(why.clone()),
             None => Err(self.message.clone().unwrap_or_else(|| format!("{quantity} was not computed"))),

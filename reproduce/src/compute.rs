@@ -194,6 +194,16 @@ fn in_time(
     if stop() {
         return Err(Stopped);
     }
+    let same = |other: &std::sync::Arc<Run>| other.trajectory == run.trajectory;
+    let other = other.map(|other| {
+        other.and_then(|other| {
+            if same(&other) {
+                Err("`against` gives the same run, which says nothing of its errors".to_owned())
+            } else {
+                Ok(other)
+            }
+        })
+    });
     let values = quantities.into_iter().map(|(name, quantity)| {
         let valued = quantity.and_then(|quantity| {
             let collected = match &other {

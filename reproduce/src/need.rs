@@ -3,6 +3,9 @@
 use crate::described::{As, Claim, Described, Item, OfEnergy, OfModes, OfRun, Rule, Template, Term};
 use std::collections::{BTreeMap, BTreeSet};
 
+/// Most runs of an item.
+const MOST_RUNS: f64 = 10_000.0;
+
 /// A run, by all that its numbers depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Key {
@@ -246,6 +249,12 @@ fn named_by(rule: &Rule) -> Vec<&String> {
 /// What is wrong with an item by itself.
 pub fn problems(item: &Item) -> Vec<String> {
     let mut out = Vec::new();
+    let count =
+        |template: &Template| template.each.values().map(|values| values.len() as f64).product::<f64>();
+    let all: f64 = item.runs.iter().map(count).sum();
+    if all > MOST_RUNS {
+        return vec![format!("it has {all:.0} runs, and at most {MOST_RUNS:.0} are taken")];
+    }
     let names: Vec<String> = runs(item).into_iter().map(|run| run.name).collect();
     for (i, name) in names.iter().enumerate() {
         if names[..i].contains(name) {
@@ -276,9 +285,32 @@ pub fn problems(item: &Item) -> Vec<String> {
     }
     for claim in &item.claims {
         of_rule(&claim.rule, &mut |of| out.extend(both(of.to.is_some(), of.compared.is_some(), &claim.text)));
+        out.extend(empty(&claim.rule).map(|problem| format!("{}: {problem}", claim.text)));
         out.extend(unfilled(claim).into_iter().map(|problem| format!("{}: {problem}", claim.text)));
     }
     out
+}
+
+/// What is wrong with a rule that says nothing.
+fn empty(rule: &Rule) -> Option<String> {
+    match rule {
+        Rule::Agree { runs, .. } | Rule::Grows { runs, .. } | Rule::Falls { runs, .. } if runs.len() < 2 => {
+            Some("its rule compares runs, and needs two of them".to_owned())
+        }
+        Rule::EndsEarly { runs } | Rule::Finishes { runs } if runs.is_empty() => {
+            Some("its rule needs a run".to_owned())
+        }
+        Rule::All { rules } if rules.is_empty() => Some("`all` needs a rule".to_owned()),
+        Rule::All { rules } => rules.iter().find_map(empty),
+        Rule::Within { low, high, .. } if !(low <= high) => Some(format!("{low} to {high} is no interval")),
+        Rule::Agree { within, .. } if !(*within > 0.0) => Some(format!("nothing agrees within {within}")),
+        Rule::Less { left, right } => {
+            let nan =
+                [left, right].into_iter().any(|term| matches!(term, Term::Number(number) if number.is_nan()));
+            nan.then(|| "NaN is compared with nothing".to_owned())
+        }
+        _ => None,
+    }
 }
 
 /// The words between braces of the sentences of a claim that its rule does not fill.

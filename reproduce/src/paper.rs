@@ -60,6 +60,10 @@ pub fn from_folder(folder: &Path) -> Result<Described, PaperError> {
         };
         for path in entries.flatten().map(|entry| entry.path()) {
             let wanted = path.extension().is_some_and(|end| end == "toml" || end == "svg");
+            if wanted && path.is_symlink() {
+                problems.push(format!("{} is a link: a paper holds its own files", path.display()));
+                continue;
+            }
             let Some(name) = path.file_name().filter(|_| wanted && path.is_file()) else { continue };
             match std::fs::read_to_string(&path) {
                 Ok(text) => drop(files.insert(format!("{prefix}{}", name.to_string_lossy()), text)),

@@ -105,6 +105,11 @@ pub fn window(text: &str) -> (&str, (f64, f64)) {
 
 /// max |a − b| / max |b| over the common times, and its error by those of both.
 fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f64>), String> {
+    let last = |curve: &Curve| curve.t.last().copied().unwrap_or(0.0);
+    let (end, needed) = (last(a).min(last(b)), last(a).max(last(b)).min(to));
+    if end < needed * (1.0 - 1e-9) {
+        return Err(format!("one of the two runs ends at t = {end} s"));
+    }
     let (mut largest, mut size, mut off) = (0.0_f64, 0.0_f64, 0.0_f64);
     let mut j = 0;
     let mut common = 0;

@@ -48,11 +48,17 @@ impl Quantity {
     ) -> Result<Measured, String> {
         let index = of.index(column).ok_or_else(|| format!("the run has no column `{column}`"))?;
         let last = of.times().last().copied().unwrap_or(f64::NAN);
+        let (from, to) = self.within.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        let asked = if let Value::At(time) = value { [time, time] } else { [from, to] };
+        if let Some(time) = asked.into_iter().find(|time| between_records(of, *time)) {
+            return Err(format!(
+                "t = {time} s is between two records, where values are not known as well as at them: let one fall there by `output.step`"
+            ));
+        }
         if let Value::At(time) = value {
             let value = of.at(index, time).ok_or_else(|| format!("the run ends at t = {last} s"))?;
             return Ok(Measured { value, time });
         }
-        let (from, to) = self.within.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
         if to.is_finite() && !(last >= to * (1.0 - 1e-9)) {
             return Err(format!("the run ends at t = {last} s"));
         }
@@ -112,4 +118,13 @@ impl Quantity {
             OfContact::Loss => at_end(sum(&["impact", "left"], |entry| entry.lost)),
         }
     }
+}
+
+/// Whether a time within the records is none of theirs.
+fn between_records(of: &Trajectory, time: f64) -> bool {
+    let times = of.times();
+    let next = times.partition_point(|t| *t < time);
+    let same = |t: Option<&f64>| t.is_some_and(|t| (t - time).abs() <= 1e-9 * t.abs().max(1e-6));
+    let inside = next > 0 && next < times.len();
+    inside && !same(times.get(next)) && !same(times.get(next - 1))
 }
