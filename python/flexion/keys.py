@@ -549,6 +549,8 @@ BeamOnHubBasisRadial = TypedDict(
         "support": "float",
         # degree of the added polynomials, -1 for none
         "degree": "int",
+        # whether each point has a support domain of its own, and not each interval between two nodes: displacements then jump inside of the beam
+        "domain-per-point": "bool",
     },
     total=False,
 )
