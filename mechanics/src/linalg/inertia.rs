@@ -27,7 +27,7 @@ pub(super) fn shape(matrix: &Matrix) -> [usize; 3] {
 /// Number of negative eigenvalues of a Hermitian matrix with the entries `entry(i, j)`, j ≥ i: its order, its half-bandwidth
 /// and the number of dense rows and columns behind the band are given.
 ///
-/// The matrix is brought into other units of its unknowns ([`Equilibration`]), which leave the number: those of a multiplier, a force over
+/// The matrix is brought into other units of its unknowns (`Equilibration`), which leave the number: those of a multiplier, a force over
 /// the reach of a row, would otherwise let a pivot pass that is small against the stiffness around it.
 pub fn negative_pivots_of<T>(shape: [usize; 3], entry: impl Fn(usize, usize) -> T) -> usize
 where
