@@ -5,10 +5,8 @@
 
 use flexion::analysis::modes::modes;
 use flexion::analysis::rotation::rotate_stably;
-use flexion::linalg::eigen::Pencil;
-use flexion::linalg::{Matrix, Structure};
-use flexion::system::{Direction, Parameter, State, System, Weights};
-use flexion_case::read;
+use flexion::system::State;
+use flexion_case::{Reading, read};
 use std::path::Path;
 
 const SPEEDS: [f64; 9] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 10.0, 20.0, 50.0];
@@ -21,15 +19,15 @@ fn unit_of_time() -> f64 {
     (12.0 * 2707.0 * 5.0_f64.powi(4) / (70e9 * 0.02 * 0.02)).sqrt()
 }
 
-fn system(exponent: f64, basis: &str) -> Box<dyn System> {
+fn case(exponent: f64, basis: &str) -> Reading {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../verification/p3_spin_up");
     let overrides = [format!("section.exponent={exponent}"), basis.to_owned()];
-    read(&folder, &overrides).unwrap().case.system().unwrap()
+    read(&folder, &overrides).unwrap()
 }
 
 /// The two lowest frequencies times τ at γ = Ωτ: all unknowns.
 fn full(exponent: f64, basis: &str, gamma: f64) -> [f64; 2] {
-    let mut system = system(exponent, basis);
+    let mut system = case(exponent, basis).case.system().unwrap();
     let mut state = State::zeros(system.size(), 0.0);
     rotate_stably(system.as_mut(), &mut state, 0.0, gamma / unit_of_time()).unwrap();
     let found = modes(system.as_mut(), &state, 2, &[]).unwrap().modes;
@@ -38,27 +36,8 @@ fn full(exponent: f64, basis: &str, gamma: f64) -> [f64; 2] {
 
 /// The same with the transverse unknowns only: M₂ B̈ + [Ω²(C − M₂) + K₃] B = 0.
 fn transverse(exponent: f64, basis: &str, gamma: f64) -> [f64; 2] {
-    let mut system = system(exponent, basis);
-    system.set(Parameter::Speed, gamma / unit_of_time()).unwrap();
-    let state = State::zeros(system.size(), 0.0);
-    let kept: Vec<usize> =
-        (0..system.size().v).filter(|&i| system.direction(i) == Direction::Chord).collect();
-    let structure = system.structure(0);
-    let mut part = |a: f64, q: f64| {
-        let mut whole = Matrix::new(&structure);
-        system.tangent(&state, Weights::new(a, 0.0, q), &mut whole);
-        let mut part = Matrix::new(&Structure::dense(kept.len()));
-        for (i, &from) in kept.iter().enumerate() {
-            for (j, &to) in kept.iter().enumerate() {
-                part.add(i, j, whole.get(from, to));
-            }
-        }
-        part
-    };
-    let (mass, stiffness) = (part(1.0, 0.0), part(0.0, 1.0));
-    let none = Matrix::new(&Structure::dense(kept.len()));
-    let pairs = Pencil::new([mass, none, stiffness], 0, 0.0).unwrap().pairs(2, &[]).unwrap();
-    [pairs[0].value.im * unit_of_time(), pairs[1].value.im * unit_of_time()]
+    let found = case(exponent, basis).transverse_frequencies(gamma / unit_of_time(), 2).unwrap();
+    [found[0].0 * unit_of_time(), found[1].0 * unit_of_time()]
 }
 
 fn table(which: usize, of: fn(f64, &str, f64) -> [f64; 2]) {

@@ -159,33 +159,8 @@ fn asked(words: &[String]) -> Option<Vec<Asked>> {
     let mut out: Vec<Asked> = Vec::new();
     let mut sound = true;
     for word in &names {
-        let known = |name: &str| built_in_names().iter().any(|built| built == name);
-        let (name, item) = match word.split_once('/') {
-            Some((name, item)) if known(name) => (name, Some(item.to_owned())),
-            _ => (word.as_str(), None),
-        };
-        let folder = (!known(name)).then(|| Path::new(name).to_owned());
-        let read = match &folder {
-            Some(folder) if folder.join("paper.toml").is_file() => from_folder(folder),
-            // An item of a paper in a folder.
-            Some(_)
-                if name
-                    .rsplit_once('/')
-                    .is_some_and(|(folder, _)| Path::new(folder).join("paper.toml").is_file()) =>
-            {
-                let (folder, item) = name.rsplit_once('/').unwrap_or((name, ""));
-                match from_folder(Path::new(folder)) {
-                    Ok(paper) => {
-                        sound &=
-                            take(&mut out, Some(Path::new(folder).to_owned()), paper, Some(item.to_owned()));
-                        continue;
-                    }
-                    Err(error) => Err(error),
-                }
-            }
-            Some(_) => built_in(name),
-            None => built_in(name),
-        };
+        let Place { folder, name, item } = place(word);
+        let read = folder.as_deref().map_or_else(|| built_in(&name), from_folder);
         match read {
             Ok(paper) => sound &= take(&mut out, folder, paper, item),
             Err(error) => {
@@ -195,6 +170,28 @@ fn asked(words: &[String]) -> Option<Vec<Asked>> {
         }
     }
     sound.then_some(out)
+}
+
+/// What a word names: a paper in a folder or one that is built in, and perhaps an item of it.
+struct Place {
+    folder: Option<PathBuf>,
+    name: String,
+    item: Option<String>,
+}
+
+fn place(word: &str) -> Place {
+    let of = |name: &str, item: Option<&str>| {
+        let built_in = built_in_names().iter().any(|built| built == name);
+        let there = !built_in && Path::new(name).join("paper.toml").is_file();
+        let item = item.map(str::to_owned);
+        (built_in || there).then(|| Place { folder: there.then(|| name.into()), name: name.to_owned(), item })
+    };
+    let with_item = || word.rsplit_once('/').and_then(|(name, item)| of(name, Some(item)));
+    of(word, None).or_else(with_item).unwrap_or_else(|| Place {
+        folder: None,
+        name: word.to_owned(),
+        item: None,
+    })
 }
 
 /// Takes up a paper, or one item more of it; whether it has the item.

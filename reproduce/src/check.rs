@@ -131,7 +131,8 @@ pub fn check(described: &Described, answers: &[Option<Answer>]) -> Result<Checke
         let change = (after[0] - value).abs();
         let allowed = error.max(0.0) + after[1].max(0.0);
         let relative = change / value.abs().max(f64::MIN_POSITIVE);
-        if change > allowed.max(LISTED * value.abs()) {
+        // What is no number is no agreement.
+        if !(change <= allowed.max(LISTED * value.abs())) {
             out.failed.push(format!("{name}: {value} ± {error} has become {} ± {}", after[0], after[1]));
         } else if after[1] > GROWN * error.max(SMALL * value.abs()) || (*error >= 0.0 && after[1] < 0.0) {
             out.failed.push(format!("{name}: its error {error} has become {}", after[1]));
@@ -151,8 +152,10 @@ pub fn check(described: &Described, answers: &[Option<Answer>]) -> Result<Checke
         }
     }
     if answers.iter().all(Option::is_some) {
-        let gone = expected.values.keys().filter(|name| !now.values.contains_key(*name));
-        out.failed.extend(gone.map(|name| format!("{name} is gone")));
+        let values = expected.values.keys().filter(|name| !now.values.contains_key(*name));
+        let verdicts = expected.verdicts.keys().filter(|name| !now.verdicts.contains_key(*name));
+        out.failed.extend(values.map(|name| format!("{name} is gone")));
+        out.failed.extend(verdicts.map(|name| format!("claim {name} is gone")));
     }
     Ok(out)
 }

@@ -25,9 +25,10 @@ impl Kept {
 
     /// The answer of an earlier call; a file that is torn or was changed is none.
     pub fn find(&self, text: &str, need: &Need) -> Option<Answer> {
-        let whole = std::fs::read_to_string(self.file(text, need)).ok()?;
+        let file = self.file(text, need);
+        let whole = std::fs::read_to_string(&file).ok()?;
         let (sum, body) = whole.split_once('\n')?;
-        if sum != hash(body.as_bytes()) {
+        if sum != sum_of(&file, body) {
             return None;
         }
         serde_json::from_str(body).ok()
@@ -36,10 +37,17 @@ impl Kept {
     /// Keeps an answer, whole or not at all: what cannot be kept is computed again.
     pub fn keep(&self, text: &str, need: &Need, answer: &Answer) {
         let Ok(body) = serde_json::to_string(answer) else { return };
-        let whole = format!("{}\n{body}", hash(body.as_bytes()));
+        let file = self.file(text, need);
+        let whole = format!("{}\n{body}", sum_of(&file, &body));
         let _ = std::fs::create_dir_all(&self.folder);
-        let _ = flexion_results::write_file(&self.file(text, need), whole.as_bytes());
+        let _ = flexion_results::write_file(&file, whole.as_bytes());
     }
+}
+
+/// The hash of an answer with the name of its file: one under the name of another is none.
+fn sum_of(file: &Path, body: &str) -> String {
+    let name = file.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    hash(format!("{name}\n{body}").as_bytes())
 }
 
 /// The hash of the program that runs, by which an answer is known to be its own.
@@ -56,7 +64,7 @@ pub fn identity_of_program() -> String {
     hashed.unwrap_or_else(|_| flexion_results::VERSION.to_owned())
 }
 
-pub fn hash(bytes: &[u8]) -> String {
+fn hash(bytes: &[u8]) -> String {
     hex(&Sha256::digest(bytes))
 }
 

@@ -29,7 +29,7 @@ pub enum Value {
     Middle,
     /// The largest absolute value.
     Largest,
-    /// The value at a time \[s\], on the line between two records.
+    /// The value at the time of a record \[s\].
     At(f64),
 }
 
