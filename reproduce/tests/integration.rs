@@ -236,6 +236,9 @@ fn answers_are_kept_and_a_torn_one_is_computed_again() {
         answers.iter().cloned().map(|answer| answer.map(|answer| Answer { seconds: 0.0, ..answer })).collect()
     };
     assert_eq!(timeless(&again), timeless(&answers));
+    // One under the name of another is none.
+    std::fs::copy(&files[0], &files[2]).unwrap();
+    assert_eq!(found(&options).1, 2);
     // Another program finds nothing.
     assert_eq!(found(&Options { identity: "other".to_owned(), ..options }).1, 0);
 }
@@ -291,6 +294,13 @@ fn a_check_finds_changed_values_and_grown_errors() {
         changed(&|value| value.error = value.error.map(|error| 20.0 * error)),
     ];
     assert_eq!((far.failed.len(), near.failed.len(), near.listed.len(), grown.failed.len()), (1, 0, 1, 1));
+    let value = accepted.lines().find(|line| line.contains("deflection.min")).unwrap();
+    let no_number = format!("{}= [nan, 1.0]", value.split("= ").next().unwrap());
+    paper.expected = Some(accepted.replace(value, &no_number));
+    assert_eq!(check(&paper, &answers).unwrap().failed.len(), 1);
+    paper.expected =
+        Some(accepted.replace("\"F1.1\" = \"holds\"", "\"F1.1\" = \"holds\"\n\"F1.9\" = \"holds\""));
+    assert_eq!(check(&paper, &answers).unwrap().failed, ["claim F1.9 is gone"]);
     paper.expected = Some(accepted.replace("\"holds\"", "\"fails\""));
     assert_eq!(check(&paper, &answers).unwrap().failed.len(), 1);
 }
