@@ -17,29 +17,15 @@ const SWEEPS: usize = 12;
 pub(super) struct Equilibration {
     scales: Vec<f64>,
     largest: Vec<f64>,
-    /// Which rows have nothing on the diagonal.
-    bare: Vec<bool>,
 }
 
 impl Equilibration {
     /// S with which the largest entry sᵢ |aᵢⱼ| sⱼ of every row is between ½ and 4; `measure` calls what it is given with i, j and |aᵢⱼ| of every entry.
     pub(super) fn find(&mut self, order: usize, mut measure: impl FnMut(&mut dyn FnMut(usize, usize, f64))) {
-        let Equilibration { scales, largest, bare } = self;
-        // The diagonal first: of a definite matrix no entry is then larger than one.
+        let Equilibration { scales, largest } = self;
         scales.clear();
-        scales.resize(order, 0.0);
-        measure(&mut |i, j, size| {
-            if i == j {
-                scales[i] = size;
-            }
-        });
-        bare.clear();
-        bare.extend(scales.iter().map(|size| *size == 0.0));
-        for s in scales.iter_mut() {
-            let known = *s > 0.0 && s.is_finite();
-            *s = if known { libm::scalbn(1.0, -libm::ilogb(*s) / 2) } else { 1.0 };
-        }
-        for sweep in 0..SWEEPS {
+        scales.resize(order, 1.0);
+        for _ in 0..SWEEPS {
             largest.clear();
             largest.resize(order, 0.0);
             measure(&mut |i, j, size| {
@@ -48,11 +34,9 @@ impl Equilibration {
                 largest[j] = largest[j].max(size);
             });
             let mut changes = false;
-            for ((s, size), bare) in scales.iter_mut().zip(&*largest).zip(&*bare) {
+            for (s, size) in scales.iter_mut().zip(&*largest) {
                 if *size > 0.0 && size.is_finite() {
-                    // A row without a diagonal takes the units of those that it is coupled with.
-                    let whole = *bare && sweep == 0;
-                    let by = if whole { -libm::ilogb(*size) } else { -libm::ilogb(*size) / 2 };
+                    let by = -libm::ilogb(*size) / 2;
                     changes |= by != 0;
                     *s = libm::scalbn(*s, by);
                 }
