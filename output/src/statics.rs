@@ -1,8 +1,11 @@
 //! Files of a path of equilibria.
 
-use super::archive;
+use super::arrays::list;
+#[cfg(feature = "figures")]
 use super::plot::statics_figure;
-use super::vibration::{close, column, draw};
+use super::vibration::close;
+#[cfg(feature = "figures")]
+use super::vibration::drawn;
 use super::{Artifact, Directory, LoadPath, LoadPoint, OutputError, VERSION, resolved_case};
 use flexion::analysis::path::Critical;
 use serde_json::{Value, json};
@@ -34,25 +37,29 @@ pub fn write_statics(
         }
         Ok(())
     })?;
-    directory.write(Artifact::StaticsNpz, |f| {
-        let mut archive = archive::archive(f);
+    directory.write_arrays(Artifact::StaticsNpz, |to| {
         let points = path.points.iter();
-        column(&mut archive, "load_factor", points.clone().map(|p| p.factor))?;
-        column(&mut archive, "length", points.clone().map(|p| p.length))?;
-        column(&mut archive, "unstable", points.clone().map(|p| unstable(p) as f64))?;
+        list(to, "load_factor", points.clone().map(|p| p.factor))?;
+        list(to, "length", points.clone().map(|p| p.length))?;
+        list(to, "unstable", points.clone().map(|p| unstable(p) as f64))?;
         for (i, channel) in path.channels.iter().enumerate() {
-            column(&mut archive, &channel.name, points.clone().map(|p| p.values[i]))?;
+            list(to, &channel.name, points.clone().map(|p| p.values[i]))?;
         }
-        archive::finish(archive)
+        Ok(())
     })?;
-    let mut warnings = cautions.to_vec();
-    warnings.extend(draw(
-        directory,
-        &statics_figure(path, title),
-        [Artifact::StaticsSvg, Artifact::StaticsPng],
-    )?);
+    let warnings = cautions.to_vec();
+    #[cfg(feature = "figures")]
+    let warnings = {
+        let figure = statics_figure(path, title);
+        drawn(directory, &figure, [Artifact::StaticsSvg, Artifact::StaticsPng], warnings)?
+    };
+    close(directory, Artifact::StaticsJson, &statics_json(path, &warnings))
+}
+
+/// What is found on a path, as it is written: the last equilibrium and the critical states.
+pub fn statics_json(path: &LoadPath, warnings: &[String]) -> Value {
     let critical: Vec<Value> = path.critical().map(|(point, _)| json(path, point)).collect();
-    let summary = json!({
+    json!({
         "version": VERSION,
         "points": path.points.len(),
         "to": path.to,
@@ -61,8 +68,7 @@ pub fn write_statics(
         "critical": critical,
         "errors": { "estimated": path.unknown.is_none(), "reason": path.unknown },
         "warnings": warnings,
-    });
-    close(directory, Artifact::StaticsJson, &summary)
+    })
 }
 
 /// A point with the quantities that are printed.

@@ -115,7 +115,7 @@ impl Reading {
     ) -> Result<(), OutputError> {
         let FoundModes { request, modes, stations, axes, scene, film, warnings, .. } = found;
         film.iter().try_for_each(|film| write_film(directory, film, Artifact::ModesSeries))?;
-        directory.write(Artifact::ModesScene, |f| scene.write(f))?;
+        directory.write_arrays(Artifact::ModesScene, |to| scene.put(to))?;
         let shown = (modes, request.speed, *axes);
         write_modes(directory, shown, stations, &request.units, &self.resolved(), title, warnings)
     }
