@@ -1,6 +1,6 @@
 //! The values of a case, one by one, as a form shows them.
 
-use super::declaration::Key;
+use super::declaration::{Key, Type};
 use super::problem::Place;
 use super::reading::Reading;
 use super::resolved;
@@ -19,6 +19,20 @@ pub struct Given<'r> {
     pub number: Option<f64>,
     /// Where it was written; `None` for a default.
     pub place: Option<&'r Place>,
+    /// What was written there.
+    pub written: Option<&'r str>,
+}
+
+impl Given<'_> {
+    /// Whether it is a table, or a list of such, whose values follow.
+    pub(super) fn is_table(&self) -> bool {
+        matches!(self.key.takes, Type::Table(_) | Type::Tables(_))
+    }
+
+    /// Whether it is the kind of a table.
+    pub(super) fn is_kind(&self) -> bool {
+        matches!(self.key.takes, Type::Kind(_))
+    }
 }
 
 impl Reading {
@@ -26,6 +40,10 @@ impl Reading {
     pub fn given(&self) -> Vec<Given<'_>> {
         let mut out = Vec::new();
         push(self.written(), "", &mut out);
+        for given in &mut out {
+            let written = given.place.and_then(|place| self.sources().get(place.source)?.text.get(place.start..place.end));
+            given.written = written.filter(|_| !given.is_table() && !given.is_kind());
+        }
         out
     }
 }
@@ -43,7 +61,7 @@ fn push<'r>(values: &'r Values, path: &str, out: &mut Vec<Given<'r>>) {
             value => resolved::written(value, &filled.key.takes, false),
         };
         let place = filled.place.as_ref();
-        out.push(Given { path: path.clone(), key: filled.key, value, number, place });
+        out.push(Given { path: path.clone(), key: filled.key, value, number, place, written: None });
         match &filled.value {
             Value::Table(values) | Value::Kind(_, values) => push(values, &path, out),
             Value::Tables(list) => {

@@ -23,6 +23,7 @@ mod case;
 pub mod change;
 pub mod declaration;
 mod driven;
+mod edit;
 mod fault;
 mod features;
 mod files;
@@ -80,8 +81,8 @@ pub use statics::{StaticsError, StaticsRequest};
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
 pub use vibration::{
-    Diagram, DiagramRequest, FoundModes, Linear, LinearRequest, ModesRequest, PlaceStiffness, VibrationError,
-    campbell, moves,
+    Diagram, DiagramRequest, FoundModes, Linear, LinearRequest, ModesRequest, PlaceStiffness, Speed, Speeds,
+    VibrationError, Wanted, campbell, moves,
 };
 
 /// Every place in a case where a kind is chosen, with the kinds.

@@ -38,7 +38,7 @@ fn system_parts(text: &str) -> Vec<&'static str> {
 /// The elementary functions of the standard library that a source text calls, up to its tests.
 fn elementary_functions(text: &str) -> Vec<&'static str> {
     let code = code_only(text);
-    let code = code.split("#[cfg(test)]\nmod tests {").next().unwrap_or("");
+    let code = code.split("\nmod tests {").next().unwrap_or("");
     // Numbers with derivatives have functions of these names too, called on `self` or by their type.
     let called = |name: &&str| {
         let call = format!(".{name}(");
@@ -74,10 +74,14 @@ fn the_mechanics_depends_on_numbers_and_errors_only() {
 }
 
 #[test]
-fn the_mechanics_has_the_same_elementary_functions_everywhere() {
-    for (file, text) in sources(&root().join("mechanics/src")) {
-        let own_tests = file.iter().any(|part| part == "tests" || part == "tests.rs" || part == "checks.rs");
-        assert!(own_tests || elementary_functions(&text).is_empty(), "{}: use those of libm", file.display());
+fn what_computes_has_the_same_elementary_functions_everywhere() {
+    // Pictures and samples are drawn on one platform.
+    let others = ["tests", "tests.rs", "checks.rs", "samples.rs", "plot", "sweep"];
+    for folder in ["mechanics/src", "case/src", "output/src"] {
+        for (file, text) in sources(&root().join(folder)) {
+            let is_other = file.iter().any(|part| others.iter().any(|other| part == *other));
+            assert!(is_other || elementary_functions(&text).is_empty(), "{}: use those of libm", file.display());
+        }
     }
 }
 

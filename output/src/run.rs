@@ -1,6 +1,5 @@
 //! All files of one run, in the order that makes an interrupted write recognisable.
 
-use std::io::Write;
 
 use super::{
     Artifact, Directory, OutputError, RunReport, Scene, Shapes, Status, Summary, Trajectory, resolved_case,

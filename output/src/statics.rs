@@ -1,6 +1,6 @@
 //! Files of a path of equilibria.
 
-use super::arrays::list;
+use super::arrays::{Arrays, list};
 #[cfg(feature = "figures")]
 use super::plot::statics_figure;
 use super::vibration::close;
@@ -9,7 +9,7 @@ use super::vibration::drawn;
 use super::{Artifact, Directory, LoadPath, LoadPoint, OutputError, VERSION, resolved_case};
 use flexion::analysis::path::Critical;
 use serde_json::{Value, json};
-use std::io::Write;
+use std::io;
 
 /// Writes and publishes the files of a path. `case` is the resolved case; `cautions` are kept with the warnings.
 ///
@@ -23,8 +23,6 @@ pub fn write_statics(
     cautions: &[String],
 ) -> Result<(), OutputError> {
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
-    // Numbers of growing motions; −1 where they were not found.
-    let unstable = |p: &LoadPoint| p.stability.map_or(-1, |found| found.unstable() as i64);
     directory.write(Artifact::StaticsCsv, |f| {
         write!(f, "load-factor,length,unstable,critical")?;
         path.channels.iter().try_for_each(|channel| write!(f, ",{} [{}]", channel.name, channel.unit))?;
@@ -37,16 +35,7 @@ pub fn write_statics(
         }
         Ok(())
     })?;
-    directory.write_arrays(Artifact::StaticsNpz, |to| {
-        let points = path.points.iter();
-        list(to, "load_factor", points.clone().map(|p| p.factor))?;
-        list(to, "length", points.clone().map(|p| p.length))?;
-        list(to, "unstable", points.clone().map(|p| unstable(p) as f64))?;
-        for (i, channel) in path.channels.iter().enumerate() {
-            list(to, &channel.name, points.clone().map(|p| p.values[i]))?;
-        }
-        Ok(())
-    })?;
+    directory.write_arrays(Artifact::StaticsNpz, |to| put_statics(to, path))?;
     let warnings = cautions.to_vec();
     #[cfg(feature = "figures")]
     let warnings = {
@@ -54,6 +43,26 @@ pub fn write_statics(
         drawn(directory, &figure, [Artifact::StaticsSvg, Artifact::StaticsPng], warnings)?
     };
     close(directory, Artifact::StaticsJson, &statics_json(path, &warnings))
+}
+
+/// Puts the arrays of a path: load factors, lengths, numbers of growing motions, and the recorded quantities.
+///
+/// # Errors
+/// Whatever `to` returns.
+pub fn put_statics(to: &mut dyn Arrays, path: &LoadPath) -> io::Result<()> {
+    let points = path.points.iter();
+    list(to, "load_factor", points.clone().map(|p| p.factor))?;
+    list(to, "length", points.clone().map(|p| p.length))?;
+    list(to, "unstable", points.clone().map(|p| unstable(p) as f64))?;
+    for (i, channel) in path.channels.iter().enumerate() {
+        list(to, &channel.name, points.clone().map(|p| p.values[i]))?;
+    }
+    Ok(())
+}
+
+/// Number of growing motions; −1 where it was not found.
+fn unstable(point: &LoadPoint) -> i64 {
+    point.stability.map_or(-1, |found| found.unstable() as i64)
 }
 
 /// What is found on a path, as it is written: the last equilibrium and the critical states.

@@ -9,7 +9,7 @@ use flexion::analysis::campbell::{Branch, Campbell, Instability};
 use flexion::analysis::modes::{Mode, Modes};
 use num_complex::Complex64;
 use serde_json::{Value, json};
-use std::io::{self, Write};
+use std::io;
 
 /// Writes displacements along the three axes of the sections, and the rotation about the first, in arrays of the given size.
 fn write_shapes<'u>(
@@ -134,10 +134,6 @@ pub fn write_campbell(
     let (unit, speed) = (&units.frequency, &units.speed);
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
     let curves: Vec<Curve> = (1..).zip(&campbell.branches).map(|(n, b)| Curve::new(n, b, unit)).collect();
-    // A curve that has ended is not a number.
-    let at = |values: &[(f64, f64)], speed: f64| {
-        values.iter().find(|value| value.0 == speed).map_or(f64::NAN, |value| value.1)
-    };
     directory.write(Artifact::CampbellCsv, |f| {
         write!(f, "{}", speed.column("speed"))?;
         let columns = || curves.iter().flat_map(|curve| curve.columns.iter().map(move |c| (curve, c)));
@@ -161,27 +157,8 @@ pub fn write_campbell(
         }
         Ok(())
     })?;
-    directory.write_arrays(Artifact::CampbellNpz, |to| {
-        list(to, "speed", campbell.speeds.iter().map(|s| s * speed.factor))?;
-        list(to, "station", stations.iter().copied())?;
-        for (curve, branch) in curves.iter().zip(&campbell.branches) {
-            for (name, values) in &curve.columns {
-                let name = format!("mode{}.{}", curve.number, name.replace('-', "_"));
-                list(to, &name, campbell.speeds.iter().map(|&s| at(values, s)))?;
-            }
-            // Speed by speed; a curve that has ended is not a number.
-            let size = [campbell.speeds.len() as u64, stations.len() as u64];
-            let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 4]; stations.len()];
-            let shapes = campbell.speeds.iter().enumerate().map(|(i, _)| match branch.points.get(i) {
-                Some(point) if point.mode.shape.movement.len() == stations.len() => {
-                    &point.mode.shape.movement
-                }
-                _ => &missing,
-            });
-            write_shapes(to, &format!("mode{}", curve.number), &size, shapes.flatten())?;
-        }
-        Ok(())
-    })?;
+    directory
+        .write_arrays(Artifact::CampbellNpz, |to| put_campbell(to, campbell, units, Some(stations)))?;
     let warnings = cautions.to_vec();
     #[cfg(feature = "figures")]
     let warnings = {
@@ -190,6 +167,43 @@ pub fn write_campbell(
     };
     let summary = campbell_json(campbell, resonances, units, &warnings);
     close(directory, Artifact::CampbellJson, &summary)
+}
+
+/// Puts the arrays of a Campbell diagram: speeds, and for each mode its frequency, damping ratio, error by the mesh and shares; with
+/// stations \[m\] these, and the shapes at them.
+///
+/// # Errors
+/// Whatever `to` returns.
+pub fn put_campbell(
+    to: &mut dyn Arrays,
+    campbell: &Campbell,
+    units: &Units,
+    stations: Option<&[f64]>,
+) -> io::Result<()> {
+    let (unit, speed) = (&units.frequency, &units.speed);
+    let curves: Vec<Curve> = (1..).zip(&campbell.branches).map(|(n, b)| Curve::new(n, b, unit)).collect();
+    list(to, "speed", campbell.speeds.iter().map(|s| s * speed.factor))?;
+    if let Some(stations) = stations {
+        list(to, "station", stations.iter().copied())?;
+    }
+    for (curve, branch) in curves.iter().zip(&campbell.branches) {
+        for (name, values) in &curve.columns {
+            let name = format!("mode{}.{}", curve.number, name.replace('-', "_"));
+            list(to, &name, campbell.speeds.iter().map(|&s| at(values, s)))?;
+        }
+        let Some(stations) = stations else { continue };
+        // Speed by speed; a curve that has ended is not a number.
+        let size = [campbell.speeds.len() as u64, stations.len() as u64];
+        let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 4]; stations.len()];
+        let shapes = campbell.speeds.iter().enumerate().map(|(i, _)| match branch.points.get(i) {
+            Some(point) if point.mode.shape.movement.len() == stations.len() => {
+                &point.mode.shape.movement
+            }
+            _ => &missing,
+        });
+        write_shapes(to, &format!("mode{}", curve.number), &size, shapes.flatten())?;
+    }
+    Ok(())
 }
 
 /// What is found in a Campbell diagram, as it is written: ends of branches, crossings, critical speeds, resonances, instabilities.
@@ -254,6 +268,11 @@ pub fn campbell_json(
         "instabilities": instabilities,
         "warnings": warnings,
     })
+}
+
+/// The value of a curve at a speed; a curve that has ended is not a number.
+fn at(values: &[(f64, f64)], speed: f64) -> f64 {
+    values.iter().find(|value| value.0 == speed).map_or(f64::NAN, |value| value.1)
 }
 
 /// What is written of a branch at each of its speeds.

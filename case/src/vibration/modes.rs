@@ -193,7 +193,7 @@ fn film(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> S
     let mut moved = state.clone();
     for (number, mode) in modes.modes.iter().enumerate() {
         for phase in (0..PHASES).map(|phase| f64::from(phase) / f64::from(PHASES)) {
-            let (sin, cos) = (std::f64::consts::TAU * phase).sin_cos();
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * phase);
             displace(mode, system, state, [FILMED * cos, FILMED * sin], &mut moved);
             scene.take((number + 1) as f64 + phase, system, &moved);
         }

@@ -43,12 +43,11 @@ fn work(reading: &Reading, unknowns: usize) -> f64 {
 /// A value of the case, for a form.
 fn entry(request: &Request, given: &Given<'_>) -> Value {
     let written = given.place.as_ref().filter(|place| place.source == 0);
-    let text = written.and_then(|place| request.case().get(place.start..place.end));
     let mut all = keys::key(given.key);
     all["path"] = given.path.as_str().into();
     all["value"] = given.value.as_str().into();
     all["number"] = given.number.into();
-    all["written"] = text.into();
+    all["written"] = given.written.into();
     all["default"] = given.place.is_none().into();
     all["line"] = written
         .and_then(|place| request.case().get(..place.start))

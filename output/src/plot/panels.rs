@@ -3,7 +3,7 @@
 use super::{Axis, Figure, Panel, Series};
 use crate::columns::{NOISE, SHOWN, shown_columns};
 use crate::{Comparison, Results, Trajectory};
-use flexion::system::{Channel, Kind, Role};
+use flexion::system::{Channel, Role};
 
 /// Quantities of axes that are not the name of their column; nothing else depends on these names.
 const QUANTITIES: [(&str, &str); 15] = [
