@@ -52,7 +52,8 @@ fn edit(text: &str, path: &str, value: &str) -> Option<String> {
     let mut problems = Problems::default();
     let root = tree::read(text, &[], &mut problems);
     let value = if tree::is_value(value) { value.to_owned() } else { toml::Value::from(value).to_string() };
-    let (mut at, mut parts) = (&root, path.split(['.', '[']).map(|part| part.trim_end_matches(']')).peekable());
+    let (mut at, mut parts) =
+        (&root, path.split(['.', '[']).map(|part| part.trim_end_matches(']')).peekable());
     while let Some(part) = parts.next() {
         match &at.value {
             Raw::Table(lines) => match lines.iter().find(|line| line.key == part) {
@@ -112,16 +113,22 @@ mod tests {
     #[test]
     fn a_change_is_written_at_its_place_and_comments_stay() {
         let case = reading(CASE);
-        let edited = case.edited(&pairs(&[("section.modulus", "\"30 GPa\""), ("basis.elements", "7")])).unwrap();
+        let edited =
+            case.edited(&pairs(&[("section.modulus", "\"30 GPa\""), ("basis.elements", "7")])).unwrap();
         assert!(edited.contains("30 GPa") && edited.contains("elements = 7"), "{edited}");
         assert_eq!(edited.matches('#').count(), CASE.matches('#').count());
         assert_eq!(edited.lines().count(), CASE.lines().count());
         // A bare text is a text, and a key that is not there is added to its table.
-        let edited = case.edited(&pairs(&[("section.modulus", "30 GPa"), ("output.energy-balance", "false")])).unwrap();
+        let edited = case
+            .edited(&pairs(&[("section.modulus", "30 GPa"), ("output.energy-balance", "false")]))
+            .unwrap();
         assert_eq!(edited.lines().count(), CASE.lines().count() + 1, "{edited}");
         // A table of another kind has no one place.
         let edited = case.edited(&pairs(&[("basis", "{kind='modes', axial=4, transverse=5}")])).unwrap();
-        assert!(reading(&edited).means(&case.with(&["basis={kind='modes', axial=4, transverse=5}".to_owned()]).unwrap()));
+        assert!(
+            reading(&edited)
+                .means(&case.with(&["basis={kind='modes', axial=4, transverse=5}".to_owned()]).unwrap())
+        );
         let problems = case.edited(&pairs(&[("section.moduls", "1")])).unwrap_err();
         assert!(problems.reason().contains("unknown"), "{}", problems.reason());
     }
@@ -129,10 +136,13 @@ mod tests {
     #[test]
     fn a_case_differs_by_changes_that_make_it_of_the_other() {
         let case = reading(CASE);
-        let changes = ["section.modulus=30 GPa", "basis=modes", "output.energy-balance=false", "basis.transverse=4"];
+        let changes =
+            ["section.modulus=30 GPa", "basis=modes", "output.energy-balance=false", "basis.transverse=4"];
         let other = case.with(&changes.map(str::to_owned)).unwrap();
         let set = other.difference(&case).unwrap();
-        let made = case.with(&set.iter().map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>()).unwrap();
+        let made = case
+            .with(&set.iter().map(|(path, value)| format!("{path}={value}")).collect::<Vec<_>>())
+            .unwrap();
         assert!(made.means(&other) && set.len() == 4, "{set:?}");
         assert_eq!(case.difference(&case), Some(Vec::new()));
         let spatial = reading(include_str!("../../verification/space_joints/case.toml"));

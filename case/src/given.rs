@@ -41,7 +41,9 @@ impl Reading {
         let mut out = Vec::new();
         push(self.written(), "", &mut out);
         for given in &mut out {
-            let written = given.place.and_then(|place| self.sources().get(place.source)?.text.get(place.start..place.end));
+            let written = given
+                .place
+                .and_then(|place| self.sources().get(place.source)?.text.get(place.start..place.end));
             given.written = written.filter(|_| !given.is_table() && !given.is_kind());
         }
         out

@@ -73,7 +73,7 @@ pub use run::calculation::{Calculation, Request, Stage};
 pub use run::clock::use_clock;
 pub use run::quantity::{Collected, Quantity};
 pub use run::refine::{RefineError, Refinement, Target};
-pub use run::{Prepared, Run};
+pub use run::{Prepared, Run, Shown};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};
 pub use space::{Link, Space};

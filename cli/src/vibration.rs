@@ -56,7 +56,8 @@ impl Options {
     pub fn units(&self, case: &Case, given: Speed) -> Result<Units, VibrationError> {
         let of = |unit: Option<Unit>| unit.map(Unit::frequencies);
         let (both, dimensionless) = (of(self.unit), self.dimensionless);
-        Wanted { both, speed: of(self.speed_unit), frequency: of(self.frequency_unit), dimensionless }.units(case, given)
+        Wanted { both, speed: of(self.speed_unit), frequency: of(self.frequency_unit), dimensionless }
+            .units(case, given)
     }
 
     /// The title of a figure.

@@ -43,8 +43,8 @@ fn elementary_functions(text: &str) -> Vec<&'static str> {
     let called = |name: &&str| {
         let call = format!(".{name}(");
         let mut before = code.rsplit(&call).skip(1);
-        before.any(|text| !text.ends_with("(self") && !text.ends_with(" self"))
-            || code.split(&format!("f64::{name}")).skip(1).any(ends_a_word)
+        let is_own = |text: &str| *name != "powf" && (text.ends_with("(self") || text.ends_with(" self"));
+        before.any(|text| !is_own(text)) || code.split(&format!("f64::{name}")).skip(1).any(ends_a_word)
     };
     ELEMENTARY.into_iter().filter(called).collect()
 }
@@ -80,7 +80,11 @@ fn what_computes_has_the_same_elementary_functions_everywhere() {
     for folder in ["mechanics/src", "case/src", "output/src"] {
         for (file, text) in sources(&root().join(folder)) {
             let is_other = file.iter().any(|part| others.iter().any(|other| part == *other));
-            assert!(is_other || elementary_functions(&text).is_empty(), "{}: use those of libm", file.display());
+            assert!(
+                is_other || elementary_functions(&text).is_empty(),
+                "{}: use those of libm",
+                file.display()
+            );
         }
     }
 }
@@ -92,5 +96,6 @@ fn what_is_looked_for_is_found() {
     assert_eq!(system_parts("fn f() { std::thread::spawn(g); }"), ["thread"]);
     assert_eq!(system_parts("use std::fmt; // std::fs\nuse std::network;"), [""; 0]);
     assert_eq!(elementary_functions("let y = x.sin() + f64::exp(x);"), ["sin", "exp"]);
+    assert_eq!(elementary_functions("fn pow(self) { self.powf(2.0) }"), ["powf"]);
     assert_eq!(elementary_functions("let y = sin(x) + f64::expect(x) + x.powi(2);"), [""; 0]);
 }

@@ -31,7 +31,9 @@ impl Frequencies {
 
     /// The unit of this name: `rad/s`, `Hz` or `rpm`.
     pub fn named(name: &str) -> Option<Frequencies> {
-        [Frequencies::RADIANS, Frequencies::HERTZ, Frequencies::RPM].into_iter().find(|unit| unit.name == name)
+        [Frequencies::RADIANS, Frequencies::HERTZ, Frequencies::RPM]
+            .into_iter()
+            .find(|unit| unit.name == name)
     }
 
     /// Multiples of 1/τ, τ in s.

@@ -46,7 +46,9 @@ fn motion(path: &Path, columns: &[String]) -> Result<Value, ResultsError> {
     let scene = arrays(path, Artifact::Scene)?;
     let summary = read_json(path, Artifact::Summary).unwrap_or_default();
     let title = summary["case"]["title"].as_str().unwrap_or_default();
-    view_run((title, &results.name), results.caution.as_deref(), &results.trajectory, scene, columns)
+    view_run((title, &results.name), results.caution.as_deref(), &results.trajectory, scene, columns, &|_| {
+        None
+    })
 }
 
 /// Modes of vibration: the equilibrium and the shapes.

@@ -1,6 +1,5 @@
 //! All files of one run, in the order that makes an interrupted write recognisable.
 
-
 use super::{
     Artifact, Directory, OutputError, RunReport, Scene, Shapes, Status, Summary, Trajectory, resolved_case,
     write_csv, write_events, write_film, write_pvd, write_vtp, write_vtu,

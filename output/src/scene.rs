@@ -157,6 +157,7 @@ impl Part {
     }
 
     /// Lines that show it at a time: the centreline of a beam, the edges of a box.
+    #[cfg(feature = "figures")]
     fn lines(&self, time: usize) -> Vec<Vec<Vec3>> {
         let sections = self.sections(time);
         if let Form::Beam { .. } = self.form {
@@ -279,6 +280,7 @@ impl Scene {
     }
 
     /// The lines of each part and spring at the time of this number, with its name \[m\].
+    #[cfg(feature = "figures")]
     pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vec3>>)> {
         let parts = self.parts.iter().map(|part| (part.name.as_str(), part.lines(time)));
         let springs = self.springs.iter().zip(self.lines_of_springs(time));
@@ -291,6 +293,7 @@ impl Scene {
     }
 
     /// The obstacles.
+    #[cfg(feature = "figures")]
     pub(super) fn obstacles(&self) -> impl Iterator<Item = &Drawn> {
         self.obstacles.iter().map(|obstacle| &obstacle.drawn)
     }

@@ -36,11 +36,12 @@ pub fn write_statics(
         Ok(())
     })?;
     directory.write_arrays(Artifact::StaticsNpz, |to| put_statics(to, path))?;
-    let warnings = cautions.to_vec();
+    #[cfg(not(feature = "figures"))]
+    let (warnings, _) = (cautions.to_vec(), title);
     #[cfg(feature = "figures")]
     let warnings = {
         let figure = statics_figure(path, title);
-        drawn(directory, &figure, [Artifact::StaticsSvg, Artifact::StaticsPng], warnings)?
+        drawn(directory, &figure, [Artifact::StaticsSvg, Artifact::StaticsPng], cautions.to_vec())?
     };
     close(directory, Artifact::StaticsJson, &statics_json(path, &warnings))
 }

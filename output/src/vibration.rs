@@ -107,11 +107,12 @@ pub fn write_modes(
         Ok(())
     })?;
     directory.write_arrays(Artifact::ModesNpz, |to| put_modes(to, &modes.modes, stations, unit))?;
-    let warnings = cautions.to_vec();
+    #[cfg(not(feature = "figures"))]
+    let (warnings, _) = (cautions.to_vec(), (axes, title));
     #[cfg(feature = "figures")]
     let warnings = {
         let figure = modes_figure(modes, (stations, axes), unit, title);
-        drawn(directory, &figure, [Artifact::ModesSvg, Artifact::ModesPng], warnings)?
+        drawn(directory, &figure, [Artifact::ModesSvg, Artifact::ModesPng], cautions.to_vec())?
     };
     let summary = modes_json(modes, speed, units, title, &warnings);
     close(directory, Artifact::ModesJson, &summary)
@@ -157,13 +158,13 @@ pub fn write_campbell(
         }
         Ok(())
     })?;
-    directory
-        .write_arrays(Artifact::CampbellNpz, |to| put_campbell(to, campbell, units, Some(stations)))?;
-    let warnings = cautions.to_vec();
+    directory.write_arrays(Artifact::CampbellNpz, |to| put_campbell(to, campbell, units, Some(stations)))?;
+    #[cfg(not(feature = "figures"))]
+    let (warnings, _) = (cautions.to_vec(), (revolutions, title));
     #[cfg(feature = "figures")]
     let warnings = {
         let figure = campbell_figure(campbell, revolutions, units, title);
-        drawn(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng], warnings)?
+        drawn(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng], cautions.to_vec())?
     };
     let summary = campbell_json(campbell, resonances, units, &warnings);
     close(directory, Artifact::CampbellJson, &summary)
@@ -196,9 +197,7 @@ pub fn put_campbell(
         let size = [campbell.speeds.len() as u64, stations.len() as u64];
         let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 4]; stations.len()];
         let shapes = campbell.speeds.iter().enumerate().map(|(i, _)| match branch.points.get(i) {
-            Some(point) if point.mode.shape.movement.len() == stations.len() => {
-                &point.mode.shape.movement
-            }
+            Some(point) if point.mode.shape.movement.len() == stations.len() => &point.mode.shape.movement,
             _ => &missing,
         });
         write_shapes(to, &format!("mode{}", curve.number), &size, shapes.flatten())?;

@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 const MOST: usize = 4000;
 
 /// A run: its title and name, what its reader should be warned of, its columns and the arrays of its scene; `columns` are patterns of those
-/// to be shown at first, empty for the usual ones.
+/// to be shown at first, empty for the usual ones; `error` gives that of a column at every record, where it is known.
 ///
 /// # Errors
 /// [`ResultsError`]: no such column.
@@ -19,6 +19,7 @@ pub fn view_run(
     trajectory: &Trajectory,
     scene: Map<String, Value>,
     columns: &[String],
+    error: &dyn Fn(usize) -> Option<Vec<f64>>,
 ) -> Result<Value, ResultsError> {
     let names: Vec<&str> = trajectory.channels().iter().map(|c| c.name.as_str()).collect();
     let shown = if columns.is_empty() {
@@ -31,10 +32,14 @@ pub fn view_run(
     let times = thinned(trajectory.times(), false);
     let list = trajectory.channels().iter().enumerate().map(|(i, c)| {
         let values: Vec<f64> = trajectory.values(i).collect();
-        json!({
+        let mut column = json!({
             "name": c.name, "unit": c.unit, "shown": shown.contains(&c.name.as_str()),
             "values": single(&thinned(&values, true)),
-        })
+        });
+        if let Some(error) = error(i) {
+            column["error"] = single(&thinned(&error, true));
+        }
+        column
     });
     Ok(json!({
         "title": title,

@@ -5,8 +5,7 @@ use crate::reading::Reading;
 #[cfg(feature = "figures")]
 use flexion_results::plot::{Figure, contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
-    Attachments, Directory, Integration, OutputError, ResultsError, RunReport, Status, Summary, view_run,
-    write_run,
+    Attachments, Directory, Integration, OutputError, RunReport, Status, Summary, view_run, write_run,
 };
 
 impl Reading {
@@ -29,15 +28,15 @@ impl Reading {
         }
     }
 
-    /// A run of this case as a page plays it.
-    ///
-    /// # Errors
-    /// None: the usual columns are shown.
-    pub fn view(&self, run: &Run) -> Result<serde_json::Value, ResultsError> {
+    /// A run of this case as a page plays it, with the usual columns.
+    pub fn view(&self, run: &Run) -> serde_json::Value {
         let mut scene = serde_json::Map::new();
         // To a page nothing is refused.
         let _ = run.scene.put(&mut scene);
-        view_run((&self.case.title, &self.case.title), run.message.as_deref(), &run.trajectory, scene, &[])
+        let title = self.case.title.as_str();
+        let error = |column: usize| run.error_in_time(column);
+        view_run((title, title), run.message.as_deref(), &run.trajectory, scene, &[], &error)
+            .unwrap_or_default()
     }
 
     /// Writes the results of a run of this case and publishes them.

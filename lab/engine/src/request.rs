@@ -17,7 +17,7 @@ const MEMORY: f64 = 1e9;
 /// | `case` | text of the case, TOML |
 /// | `name` | name of its file; `case.toml` if left out |
 /// | `files` | files that the case names: name and bytes in base64 |
-/// | `set` | changes of keys: dotted path and value as text, as of `--set` |
+/// | `set` | changes of keys as of `--set`: dotted paths with values as text, or a list of `KEY=VALUE` |
 /// | `limits` | `work`: steps times unknowns, points times unknowns or speeds times unknowns; `memory`: bytes |
 ///
 /// and the options of what is asked, under the names that the program has for them.
@@ -32,7 +32,7 @@ pub struct Request {
     case: String,
     name: String,
     files: Contents,
-    set: Vec<String>,
+    set: Vec<(String, String)>,
     options: Map<String, Value>,
 }
 
@@ -61,7 +61,17 @@ impl Request {
             Ok((name, bytes.into()))
         };
         let files = texts("files")?.into_iter().map(decoded).collect::<Result<_, String>>()?;
-        let set = texts("set")?.into_iter().map(|(key, value)| format!("{key}={value}")).collect();
+        let set = match options.get("set") {
+            Some(Value::Array(list)) => {
+                let pair = |value: &Value| {
+                    let pair = value.as_str().and_then(|text| text.split_once('='));
+                    pair.map(|(key, value)| (key.to_owned(), value.to_owned()))
+                        .ok_or("`set` is a list of KEY=VALUE")
+                };
+                list.iter().map(pair).collect::<Result<_, _>>()?
+            }
+            _ => texts("set")?,
+        };
         let limit =
             |key: &str| options.get("limits").and_then(|limits| limits.get(key)).and_then(Value::as_f64);
         let (work, memory) = (limit("work").unwrap_or(f64::INFINITY), limit("memory").unwrap_or(MEMORY));
@@ -76,7 +86,24 @@ impl Request {
     /// # Errors
     /// All that is wrong with it.
     pub fn read(&self) -> Result<Reading, Problems> {
-        parse_with(self.case.clone(), Path::new(&self.name), &self.set, &self.files)
+        let set: Vec<String> = self.set.iter().map(|(key, value)| format!("{key}={value}")).collect();
+        parse_with(self.case.clone(), Path::new(&self.name), &set, &self.files)
+    }
+
+    /// Reads the case as it is written.
+    ///
+    /// # Errors
+    /// All that is wrong with it.
+    pub fn unchanged(&self) -> Result<Reading, Problems> {
+        self.read_text(&self.case)
+    }
+
+    /// Reads another case, beside the same files.
+    ///
+    /// # Errors
+    /// All that is wrong with it.
+    pub fn read_text(&self, text: &str) -> Result<Reading, Problems> {
+        parse_with(text.to_owned(), Path::new(&self.name), &[], &self.files)
     }
 
     /// The text of the case.
@@ -84,8 +111,8 @@ impl Request {
         &self.case
     }
 
-    /// The changes of the case, `KEY=VALUE`.
-    pub fn set(&self) -> &[String] {
+    /// The changes of the case: dotted path and value as text.
+    pub fn changes(&self) -> &[(String, String)] {
         &self.set
     }
 

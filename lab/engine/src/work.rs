@@ -1,12 +1,12 @@
 //! Counted work, and what is shown of it.
 
 use crate::memory;
-use flexion_results::Status;
+use flexion_case::Reading;
 use serde_json::{Value, json};
 use std::ops::ControlFlow;
 
 /// What is shown of a request while it is answered.
-pub type Progress<'p> = dyn FnMut(&str) + 'p;
+pub type Progress<'p> = dyn FnMut(&str) + Send + 'p;
 
 /// Work between two notices, steps times unknowns: some tens of milliseconds.
 const NOTICE: f64 = 3e4;
@@ -18,11 +18,11 @@ pub(crate) struct Work<'p> {
     shown: f64,
     /// Why it was given up.
     pub given_up: Option<String>,
-    progress: &'p mut Progress<'p>,
+    progress: &'p mut (dyn FnMut(&str) + Send),
 }
 
 impl<'p> Work<'p> {
-    pub(crate) fn new(limit: f64, progress: &'p mut Progress<'p>) -> Work<'p> {
+    pub(crate) fn new(limit: f64, progress: &'p mut Progress<'_>) -> Work<'p> {
         Work { done: 0.0, limit, shown: 0.0, given_up: None, progress }
     }
 
@@ -39,11 +39,6 @@ impl<'p> Work<'p> {
             self.given_up = Some(format!("given up at the limit of {why}"));
         }
         if self.given_up.is_some() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    }
-
-    /// The status of what ended, in a word.
-    pub(crate) fn status(&self, status: Status) -> &'static str {
-        if self.given_up.is_some() && status == Status::Stopped { "given-up" } else { status.word() }
     }
 }
 
@@ -66,4 +61,17 @@ pub(crate) fn problems(problems: &flexion_case::Problems) -> Value {
 /// The reply to a case that is rejected.
 pub(crate) fn rejected(of: &flexion_case::Problems) -> Value {
     json!({ "status": "rejected", "message": of.reason(), "problems": problems(of) })
+}
+
+/// What was found, or the reply in its place.
+pub(crate) type Found<T> = Result<T, Value>;
+
+/// The reply to a request that is wrong.
+pub(crate) fn refused(message: impl Into<String>) -> Value {
+    json!({ "status": "refused", "message": message.into() })
+}
+
+/// Number of unknowns of a case.
+pub(crate) fn unknowns(reading: &Reading) -> f64 {
+    reading.case.system().map_or(1, |system| system.size().v.max(1)) as f64
 }
