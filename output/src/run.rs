@@ -87,7 +87,8 @@ pub fn write_run(
     Ok(summary.status())
 }
 
-#[cfg(all(test, feature = "archives", feature = "figures"))]
+#[cfg(all(feature = "archives", feature = "figures"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::plot::trajectory_figure;

@@ -356,7 +356,8 @@ impl Scene {
     }
 }
 
-#[cfg(all(test, feature = "archives"))]
+#[cfg(feature = "archives")]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::archive;

@@ -56,7 +56,8 @@ pub fn read_state(_: impl Read + Seek) -> Result<(Checkpoint, String), String> {
     Err("this build of Flexion reads no archives of NumPy".to_owned())
 }
 
-#[cfg(all(test, feature = "archives"))]
+#[cfg(feature = "archives")]
+#[cfg(test)]
 mod tests {
     use super::*;
     use std::io::Cursor;
