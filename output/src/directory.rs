@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::OutputError;
 use super::artifact::Artifact;
@@ -221,6 +222,9 @@ fn probe(path: &Path) -> io::Result<()> {
     written.and(staging::clear(path))
 }
 
+/// Number of files that this process has begun to write by [`write_file`].
+static WRITTEN: AtomicU64 = AtomicU64::new(0);
+
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
@@ -235,7 +239,10 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let attempt = || {
         let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        let hidden = path.with_file_name(format!(".{}.flexion-new", name.to_string_lossy()));
+        // Another process, or another thread, may write the same file at the same time.
+        let (process, number) = (std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed));
+        let hidden =
+            path.with_file_name(format!(".{}.{process}-{number}.flexion-new", name.to_string_lossy()));
         let written = write_whole(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
         if written.is_err() {
             let _ = fs::remove_file(&hidden);

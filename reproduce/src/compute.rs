@@ -131,7 +131,7 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
                 (_, Some(energy)) => frequencies(of_energy(&reading, energy), true),
                 _ => in_time(&reading, need, shared, stop)?,
             };
-            answer.stated = reading.stated();
+            answer.stated = titled(reading.stated(), &run.key.set);
             answer
         }
     };
@@ -145,6 +145,14 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
     }
     answer.seconds = began.elapsed().as_secs_f64();
     Ok(answer)
+}
+
+/// A case as it is written, whose title says what was changed.
+fn titled(stated: String, set: &[String]) -> String {
+    let Some((before, rest)) = stated.split_once("title = \"") else { return stated };
+    let Some((title, behind)) = rest.split_once("\"\n").filter(|_| !set.is_empty()) else { return stated };
+    let changes: Vec<String> = set.iter().map(|set| set.replacen('=', " = ", 1).replace('"', "'")).collect();
+    format!("{before}title = \"{title}, with {}\"\n{behind}", changes.join(", "))
 }
 
 /// What a run in time says.
@@ -166,17 +174,6 @@ fn in_time(
             (name, read.and_then(|mut read| read.pop().ok_or_else(|| format!("{name} is no quantity"))))
         })
         .collect();
-    let mut faults: Vec<String> =
-        quantities.values().filter_map(|read| read.as_ref().err().cloned()).collect();
-    let channels = prepared.channels();
-    for name in &need.columns {
-        if channels.iter().all(|channel| channel.name != *name) {
-            let nearest =
-                flexion_results::nearest(name, channels.iter().map(|channel| channel.name.as_str()));
-            let nearest = nearest.map_or(String::new(), |name| format!("; perhaps `{name}`"));
-            faults.push(format!("there is no column `{name}`{nearest}"));
-        }
-    }
     let against = need.run.key.against.as_ref();
     let request = Request { effort: against.is_none().then_some(Effort::Full), ..Request::default() };
     let mut watch =
@@ -251,7 +248,6 @@ fn in_time(
         status: if run.status == Status::Finished { "finished" } else { "failed" }.to_owned(),
         message: run.message.clone(),
         warnings,
-        faults,
         errors,
         values: values.collect(),
         curves: curves.collect(),
@@ -302,7 +298,7 @@ fn frequencies(found: Found, own: bool) -> Answer {
 }
 
 /// The unit of time of frequencies \[s\], and a speed \[rad/s\]: a pure number is over that unit.
-fn scale(unit: Option<&toml::Value>, speed: &toml::Value) -> Result<(Option<f64>, f64), String> {
+pub fn scale(unit: Option<&toml::Value>, speed: &toml::Value) -> Result<(Option<f64>, f64), String> {
     let number = |value: &toml::Value, measure: &units::Measure| match value {
         toml::Value::Integer(number) => Ok(*number as f64),
         toml::Value::Float(number) => Ok(*number),
