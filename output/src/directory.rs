@@ -472,4 +472,24 @@ mod tests {
             assert!(!was_there || fs::read_dir(&path).unwrap().next().is_none());
         }
     }
+
+    /// Several that write one file at the same time write it whole, each under a name of its own.
+    #[test]
+    fn a_file_that_is_written_by_many_is_that_of_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("report.html");
+        std::thread::scope(|scope| {
+            for letter in b'a'..b'i' {
+                let file = &file;
+                scope.spawn(move || {
+                    for _ in 0..8 {
+                        write_file(file, &vec![letter; 100_000]).unwrap();
+                    }
+                });
+            }
+        });
+        let whole = fs::read(&file).unwrap();
+        assert!(whole.len() == 100_000 && whole.iter().all(|letter| *letter == whole[0]));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
 }

@@ -215,7 +215,7 @@ fn page(papers: &[Reproduced<'_>]) -> String {
     contents(papers, &mut out);
     for paper in papers {
         let Described { name, paper: of, .. } = paper.paper;
-        out.raw("<section class=paper>")
+        out.raw(&format!("<section class=paper data-paper=\"{}\">", anchor(name)))
             .element(&format!("h2 id=\"{}\"", anchor(name)), &format!("{name}. {}", of.title));
         out.raw("<p class=source>").text(&format!("{}. {}.", of.authors, of.source));
         if let Some(doi) = &of.doi {
