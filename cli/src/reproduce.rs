@@ -61,9 +61,18 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
         );
         return Outcome::Rejected;
     }
+    let stop = stop_on_ctrl_c();
+    let stopped = || stop.load(Ordering::Relaxed);
+    let common = Options {
+        long: arguments.long,
+        only: None,
+        threads: arguments.threads,
+        keep: (!arguments.check).then(|| arguments.output.join("kept")),
+        identity: identity_of_program(),
+    };
     let mut sound = true;
     for Asked { paper, items, .. } in &papers {
-        if let Err(error) = flexion_reproduce::sound(paper, items, arguments.long) {
+        if let Err(error) = flexion_reproduce::sound(paper, items, &common) {
             error.0.iter().for_each(|problem| screen::report(&format!("error: {problem}\n")));
             sound = false;
         }
@@ -71,22 +80,12 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
     if !sound {
         return Outcome::Rejected;
     }
-    let stop = stop_on_ctrl_c();
-    let stopped = || stop.load(Ordering::Relaxed);
-    let keep = (!arguments.check).then(|| arguments.output.join("kept"));
-    let identity = identity_of_program();
     let mut answers: Vec<Vec<Option<Answer>>> = Vec::new();
     for Asked { paper, items, .. } in &papers {
         let (needs, numbers) = of_paper(paper);
         let only: BTreeSet<usize> =
             numbers.iter().filter(|((item, _), _)| items.contains(item)).map(|(_, number)| *number).collect();
-        let options = Options {
-            long: arguments.long,
-            only: Some(only),
-            threads: arguments.threads,
-            keep: keep.clone(),
-            identity: identity.clone(),
-        };
+        let options = Options { only: Some(only), ..common.clone() };
         let bar = ProgressBar::new(0);
         if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {pos}/{len} runs  {eta} left") {
             bar.set_style(style);

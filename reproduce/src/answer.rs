@@ -14,6 +14,8 @@ pub struct Answer {
     pub warnings: Vec<String>,
     /// The case as it is written, in SI.
     pub stated: String,
+    /// The units of what is asked of it, whether there is a value or not.
+    pub units: BTreeMap<String, String>,
     /// What the errors are from.
     pub errors: String,
     /// Its quantities, or why there is none.

@@ -11,7 +11,7 @@ use flexion::system::Channel;
 use flexion_case::{Contents, Effort, ModesRequest, Quantity, Reading, Request, Run, parse_with, units};
 use flexion_results::{Frequencies, Status, Trajectory, Units};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,7 +24,7 @@ pub struct Options {
     /// Whether runs that take long are computed.
     pub long: bool,
     /// The numbers of the runs that are computed; `None` for all.
-    pub only: Option<std::collections::BTreeSet<usize>>,
+    pub only: Option<BTreeSet<usize>>,
     /// Number of threads; 0 for one on each processor.
     pub threads: usize,
     /// Where answers are kept and looked for; `None` computes all anew.
@@ -174,6 +174,7 @@ fn in_time(
             (name, read.and_then(|mut read| read.pop().ok_or_else(|| format!("{name} is no quantity"))))
         })
         .collect();
+    let units = units_of(&quantities, &need.columns, &prepared.channels());
     let against = need.run.key.against.as_ref();
     let request = Request { effort: against.is_none().then_some(Effort::Full), ..Request::default() };
     let mut watch =
@@ -248,11 +249,25 @@ fn in_time(
         status: if run.status == Status::Finished { "finished" } else { "failed" }.to_owned(),
         message: run.message.clone(),
         warnings,
+        units,
         errors,
         values: values.collect(),
         curves: curves.collect(),
         ..Answer::default()
     })
+}
+
+/// The units of quantities and columns.
+fn units_of(
+    quantities: &BTreeMap<&String, Result<Quantity, String>>,
+    columns: &BTreeSet<String>,
+    channels: &[Channel],
+) -> BTreeMap<String, String> {
+    let of =
+        quantities.iter().filter_map(|(name, of)| Some(((*name).clone(), of.as_ref().ok()?.unit.clone())));
+    let known = |name: &String| channels.iter().find(|channel| channel.name == *name);
+    let columns = columns.iter().filter_map(|name| Some((name.clone(), known(name)?.unit.to_string())));
+    of.chain(columns).collect()
 }
 
 /// A column over time, with its difference from another run times a factor.
@@ -287,8 +302,10 @@ fn frequencies(found: Found, own: bool) -> Answer {
                 let unit = unit.to_owned();
                 (format!("frequency-{}", i + 1), Ok(Valued { value, error, unit, varies: false }))
             };
+            let units = (1..=found.len()).map(|number| (format!("frequency-{number}"), unit.to_owned()));
             Answer {
                 status: "finished".to_owned(),
+                units: units.collect(),
                 errors: if own { "of rounding" } else { "by a finer mesh" }.to_owned(),
                 values: found.into_iter().enumerate().map(valued).collect(),
                 ..Answer::default()

@@ -73,10 +73,12 @@ fn panel(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
         Some(x) => over(item, plot, x, answers),
     };
     if let Some(label) = &plot.label {
-        panel.y.quantity.clone_from(label);
         // A label may have its unit in it.
-        if label.ends_with(']') {
-            panel.y.unit.clear();
+        match label.strip_suffix(']').and_then(|label| label.rsplit_once(" [")) {
+            Some((quantity, unit)) => {
+                (panel.y.quantity, panel.y.unit) = (quantity.to_owned(), unit.to_owned())
+            }
+            None => panel.y.quantity.clone_from(label),
         }
     }
     if plot.log {

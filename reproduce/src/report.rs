@@ -269,8 +269,10 @@ fn contents(papers: &[Reproduced<'_>], out: &mut Html) {
         all = all.plus(counts);
         let Described { name, paper: of, .. } = paper.paper;
         out.raw("<tr><td>")
-            .element(&format!("a href=\"#{}\"", anchor(name)), &format!("{name}. {}", of.title))
-            .raw("</td>");
+            .element(&format!("a href=\"#{}\"", anchor(name)), name)
+            .raw(" <span class=title>")
+            .text(&of.title)
+            .raw("</span></td>");
         row(&counts, out);
     }
     if papers.len() > 1 {

@@ -1,8 +1,9 @@
 //! What is wrong with the runs of a paper, found before any is computed: cases that cannot be read or are refused, names that are
 //! none, units that do not go together.
 
-use crate::compute::scale;
+use crate::compute::{Options, scale};
 use crate::described::{As, Described, Item, OfRun, Rule, Term};
+use crate::keep::Kept;
 use crate::need::{Asks, Named, Need, of_paper};
 use crate::paper::PaperError;
 use crate::term::window;
@@ -16,17 +17,24 @@ use std::sync::{Mutex, PoisonError};
 /// The units of what is asked of a run, by its names.
 type Of = BTreeMap<String, String>;
 
-/// Judges the runs of these items of a paper, with those that take long if so wanted.
+/// Judges the runs that are computed of a paper; what is kept has been judged.
 ///
 /// # Errors
 /// Everything that is wrong, each with file and line.
-pub fn sound(described: &Described, items: &[String], long: bool) -> Result<(), PaperError> {
+pub fn sound(described: &Described, items: &[String], options: &Options) -> Result<(), PaperError> {
     let (needs, numbers) = of_paper(described);
+    let kept = options.keep.as_ref().map(|folder| Kept::new(folder, &options.identity));
     let wanted = |number: &usize| {
         let asked = numbers.iter().any(|((item, _), of)| of == number && items.contains(item));
-        asked && (long || needs[*number].run.seconds.is_none())
+        asked && (options.long || needs[*number].run.seconds.is_none())
     };
     let order: Vec<usize> = (0..needs.len()).filter(wanted).collect();
+    let none = String::new();
+    let judged = |need: &Need| {
+        let text = described.cases.get(&need.run.key.case).unwrap_or(&none);
+        let before = kept.as_ref().and_then(|kept| kept.find(text, need));
+        before.map_or_else(|| of_need(described, need), |answer| (answer.units, Vec::new()))
+    };
     let found: Mutex<BTreeMap<usize, (Of, Vec<String>)>> = Mutex::default();
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
@@ -34,7 +42,7 @@ pub fn sound(described: &Described, items: &[String], long: bool) -> Result<(), 
         for _ in 0..threads.min(order.len()) {
             scope.spawn(|| {
                 while let Some(&number) = order.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let judged = of_need(described, &needs[number]);
+                    let judged = judged(&needs[number]);
                     found.lock().unwrap_or_else(PoisonError::into_inner).insert(number, judged);
                 }
             });

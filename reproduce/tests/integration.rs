@@ -337,7 +337,7 @@ fn what_runs_cannot_be_is_rejected_at_its_line() {
     let folder = tempfile::tempdir().unwrap();
     let found = |item: &str| {
         let paper = paper_of(folder.path(), item);
-        match sound(&paper, &["F1".to_owned()], false) {
+        match sound(&paper, &["F1".to_owned()], &Options::default()) {
             Ok(()) => String::new(),
             Err(error) => error.to_string(),
         }
@@ -464,7 +464,7 @@ fn all_studies_and_papers_are_sound() {
     assert_eq!(all.len(), 8);
     for paper in all {
         let items: Vec<String> = paper.items.iter().map(|(id, _)| id.clone()).collect();
-        if let Err(error) = sound(&paper, &items, true) {
+        if let Err(error) = sound(&paper, &items, &Options { long: true, ..Options::default() }) {
             panic!("{}:\n{error}", paper.name);
         }
     }
