@@ -226,8 +226,9 @@ impl Reading {
                             rotation.and_then(|rotation| rotation.turning(space.multibody.model(), state));
                         let (turning, unsteady) = turning.map_err(|why| self.problem("initial.kind", why))?;
                         warning = unsteady;
-                        state.q.copy_from_slice(&turning.q);
-                        state.v.copy_from_slice(&turning.v);
+                        // States of laws stand behind those of the model.
+                        state.q[..turning.q.len()].copy_from_slice(&turning.q);
+                        state.v[..turning.v.len()].copy_from_slice(&turning.v);
                     }
                     None => warning = self.turning(system, state, watch)?,
                 }
@@ -301,8 +302,8 @@ impl Reading {
         if periodic.is_err() {
             return Ok(self.equilibrium(system, state, watch)?.or(Some(said)));
         }
-        state.q.copy_from_slice(&at.q);
-        state.v.copy_from_slice(&at.v);
+        state.q[..at.q.len()].copy_from_slice(&at.q);
+        state.v[..at.v.len()].copy_from_slice(&at.v);
         Ok(Some(said))
     }
 
