@@ -288,6 +288,8 @@ impl Reading {
             Ok(None) if self.case.hub_beam().is_some_and(|beam| beam.load_changes(revolution)) => {
                 Err(NoPeriodicMotion::Changing)
             }
+            // Laws have states.
+            Ok(None) if mean.size() != system.size() => Err(NoPeriodicMotion::Changing),
             // Contacts may be closed.
             Ok(None) if !self.case.has_contacts() => {
                 mean.hold(true);
