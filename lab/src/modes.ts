@@ -1,8 +1,9 @@
 // Modes of vibration about an equilibrium.
 import { Vector3 } from "three";
-import { array, type read, type Vibration } from "./data";
+import { array, type Results, type Vibration } from "./data";
 import { Panel, tag } from "./curves";
 import { Player } from "./player";
+import type { Drawn, Kept, Room } from "./room";
 import { extent, largest, pose, rotation, scene, sections, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { text } from "./text";
@@ -15,14 +16,11 @@ const PERIOD = 2;
 const AXES = ["axial", "chord", "flap"];
 const NAMES = ["axial", "chord", "flap"];
 
-const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
-
-export function modes(results: ReturnType<typeof read>) {
+export function modes(results: Results, room: Room, kept?: Kept): Drawn {
   const { table, shapes } = results.modes!;
   const space = scene(results.scene);
-  const canvas = element<HTMLCanvasElement>("canvas");
-  const stage = new Stage(canvas, element("scale"), space);
-  let [mode, amplitude] = [0, 0.1];
+  const stage = new Stage(room, space);
+  let [mode, amplitude] = [Math.min(kept?.mode ?? 0, table.modes.length - 1), kept?.factor ?? 0.1];
 
   // What the real and the imaginary part of every mode make of every part, as differences from the equilibrium.
   const still: Instant = { from: 0, to: 0, share: 0 };
@@ -115,7 +113,6 @@ export function modes(results: ReturnType<typeof read>) {
   });
   const rows = table.modes.map((vibration, k) => {
     const radio = tag("input", { type: "radio", name: "mode", id: `mode${k}`, "aria-label": `Mode ${k + 1}` });
-    radio.checked = k === 0;
     radio.addEventListener("change", () => choose(k));
     const cells = [
       tag("label", { for: `mode${k}` }, radio, String(k + 1)),
@@ -129,46 +126,53 @@ export function modes(results: ReturnType<typeof read>) {
     return row;
   });
   const head = ["mode", table.unit ? `frequency [${table.unit}]` : "frequency", "damping", "nodes", "moves"].map((name) => tag("th", { scope: "col" }, name));
-  element("curves").append(
+  room.curves.append(
     tag("div", { class: "table" }, tag("table", {}, tag("thead", {}, tag("tr", {}, ...head)), tag("tbody", {}, ...rows))),
     plots,
   );
   function choose(k: number) {
     mode = k;
-    element<HTMLInputElement>(`mode${k}`).checked = true;
+    rows[k].querySelector("input")!.checked = true;
     rows.forEach((row, i) => row.classList.toggle("chosen", i === k));
     if (stations.length > 0 && curves[k].length > 0) {
-      const panel = new Panel(stations, curves[k], undefined).node;
+      const panel = new Panel(room, stations, curves[k], undefined).node;
       plots.replaceChildren(panel, tag("p", { class: "abscissa" }, "arc length [m]"));
     }
     fit();
     if (player) draw(player.time);
   }
-  element("subtitle").textContent =
+  room.subtitle.textContent =
     `${table.modes.length} modes at ${text(table.speed)} ${table["speed-unit"]}, Flexion ${results.version}`;
-  element("note").textContent = table.warnings.join(" ");
-  button("Fit", "f", fit);
+  room.note.textContent = table.warnings.join(" ");
+  button(room, "Fit", "f", fit);
   if (!space.planar) {
     const views: [string, View][] = [["space", "space"], ["x, y", "xy"], ["x, z", "xz"], ["y, z", "yz"]];
-    choice<View>("View", views, "space", (view) => {
+    choice<View>(room, "View", views, "space", (view) => {
       stage.turn(view);
       fit();
     });
   }
   const amplitudes = [0.02, 0.05, 0.1, 0.2].map((x): [string, number] => [`${text(100 * x)} % of the length`, x]);
-  choice("Amplitude", amplitudes, amplitude, (x) => {
+  choice(room, "Amplitude", amplitudes, amplitude, (x) => {
     amplitude = x;
     fit();
     draw(player!.time);
   });
   let player: Player | undefined;
   const times = Float64Array.from({ length: 25 }, (_, k) => (PERIOD * k) / 24);
-  player = new Player(times, (time) => `${Math.round((360 * time) / PERIOD)}° of a period`, draw, 1);
+  player = new Player(room, times, (time) => `${Math.round((360 * time) / PERIOD)}° of a period`, draw, 1, kept);
   let fitted = false;
-  canvas.addEventListener("resized", () => {
+  const resized = () => {
     if (fitted) draw(player!.time);
     else fit();
     fitted = true;
-  });
-  choose(0);
+  };
+  room.canvas.addEventListener("resized", resized, { signal: room.signal });
+  choose(mode);
+  return {
+    kept: () => ({ ...player!.kept, factor: amplitude, mode }),
+    seek: (share) => player!.seek(share * PERIOD),
+    play: (on) => player!.play(on),
+    seconds: player.seconds,
+  };
 }

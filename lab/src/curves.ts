@@ -1,18 +1,23 @@
 // Curves over time or along the beam, with a cursor.
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import type { Room } from "./room";
 import { steady, text } from "./text";
 
 export interface Curve {
   name: string;
   unit: string;
   values: Float64Array;
+  /** Half the width of the band of its error. */
+  error?: Float64Array;
+  /** The same quantity of the run that it is compared with. */
+  other?: Float64Array;
 }
 
 /** Height of a plot [px]. */
 const HEIGHT = 120;
 
-const styled = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+export const styled = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 /** A tag with attributes and content. */
 export function tag<K extends keyof HTMLElementTagNameMap>(
@@ -26,6 +31,44 @@ export function tag<K extends keyof HTMLElementTagNameMap>(
   return made;
 }
 
+/** What all plots have. */
+export const plain = () => ({
+  width: 300,
+  padding: [6, 18, 0, 0] as uPlot.Padding,
+  cursor: { show: false },
+  legend: { show: false },
+  scales: { x: { time: false } },
+});
+
+export const axis = (): uPlot.Axis => ({
+  stroke: () => styled("dim"),
+  grid: { stroke: () => styled("grid"), width: 1 },
+  ticks: { show: false },
+  font: "11px system-ui, sans-serif",
+  gap: 4,
+  values: (_, splits) => splits.map((value) => text(value, 6)),
+});
+
+/** Keeps a plot as wide as its node, and in the colours of the page. */
+export function sized(node: HTMLElement, plot: uPlot, height: number, signal: AbortSignal) {
+  const observer = new ResizeObserver(() => {
+    const width = node.clientWidth;
+    if (width > 0) plot.setSize({ width, height });
+  });
+  observer.observe(node);
+  signal.addEventListener("abort", () => observer.disconnect());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plot.redraw(false), { signal });
+}
+
+/** Shades what lies behind the time until which a run is trusted. */
+function shade(plot: uPlot, trusted: number) {
+  const { left, top, width, height } = plot.bbox;
+  const from = Math.max(plot.valToPos(trusted, "x", true), left);
+  if (!(from < left + width)) return;
+  plot.ctx.fillStyle = styled("doubt");
+  plot.ctx.fillRect(from, top, left + width - from, height);
+}
+
 /** One or several curves over a common abscissa. */
 export class Panel {
   readonly node: HTMLElement;
@@ -34,9 +77,11 @@ export class Panel {
   private readonly values: HTMLOutputElement[];
 
   constructor(
+    { signal }: Room,
     private readonly x: Float64Array,
     private readonly curves: Curve[],
     seek: ((x: number) => void) | undefined,
+    trusted = Infinity,
   ) {
     this.values = curves.map(() => tag("output", { "aria-live": "off" }));
     const head = curves.map((curve, i) => {
@@ -45,38 +90,35 @@ export class Panel {
       return tag("span", { class: `curve curve${i}` }, tag("b", {}, curve.name), " ", ...parts);
     });
     this.node = tag("div", { class: "panel" }, tag("p", {}, ...head));
-    const axis = (): uPlot.Axis => ({
-      stroke: () => styled("dim"),
-      grid: { stroke: () => styled("grid"), width: 1 },
-      ticks: { show: false },
-      font: "11px system-ui, sans-serif",
-      gap: 4,
-      values: (_, splits) => splits.map((value) => text(value, 6)),
-    });
     const options: uPlot.Options = {
-      width: 300,
+      ...plain(),
       height: HEIGHT,
-      padding: [6, 18, 0, 0],
-      cursor: { show: false },
-      legend: { show: false },
-      scales: { x: { time: false } },
       axes: [
         { ...axis(), size: 22 },
         { ...axis(), size: 62, space: 28 },
       ],
-      series: [
-        {},
-        ...curves.map((_, i) => ({ stroke: () => styled(`curve${i}`), width: 1.5, pxAlign: 0, points: { show: false } })),
-      ],
+      series: [{}],
+      bands: [],
+      hooks: { drawClear: [(plot) => shade(plot, trusted)] },
     };
-    const finite = (values: Float64Array) => Array.from(values, (y) => (Number.isFinite(y) ? y : null));
-    const data = [Array.from(x), ...curves.map((curve) => finite(curve.values))] as uPlot.AlignedData;
-    this.plot = new uPlot(options, data, this.node);
-    new ResizeObserver(() => {
-      const width = this.node.clientWidth;
-      if (width > 0) this.plot.setSize({ width, height: HEIGHT });
-    }).observe(this.node);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.plot.redraw(false));
+    const data: (number | null)[][] = [Array.from(x)];
+    const add = (values: Float64Array, series: uPlot.Series) => {
+      data.push(Array.from(values, (y) => (Number.isFinite(y) ? y : null)));
+      options.series.push({ width: 1.5, pxAlign: 0, points: { show: false }, ...series });
+    };
+    curves.forEach(({ values, error, other }, i) => {
+      if (error) {
+        const edge = (sign: number) => values.map((y, k) => y + sign * error[k]);
+        for (const sign of [1, -1]) add(edge(sign), { width: 0, stroke: "transparent" });
+        const last = options.series.length - 1;
+        options.bands!.push({ series: [last - 1, last], fill: () => `color-mix(in srgb, ${styled(`curve${i}`)} 30%, transparent)` });
+      }
+      if (other) add(other, { stroke: () => styled(`curve${i + 1}`), dash: [6, 4] });
+      add(values, { stroke: () => styled(`curve${i}`) });
+    });
+    this.plot = new uPlot(options, data as uPlot.AlignedData, this.node);
+    signal.addEventListener("abort", () => this.plot.destroy());
+    sized(this.node, this.plot, HEIGHT, signal);
     if (seek) this.seekable(seek);
   }
 
@@ -92,8 +134,9 @@ export class Panel {
     }
     const width = this.x[high] - this.x[low];
     const share = width > 0 ? Math.min(Math.max((x - this.x[low]) / width, 0), 1) : 0;
-    this.curves.forEach(({ values }, i) => {
-      this.values[i].value = steady(values[low] + share * (values[high] - values[low]));
+    this.curves.forEach(({ values, error }, i) => {
+      const at = (of: Float64Array) => steady(of[low] + share * (of[high] - of[low]));
+      this.values[i].value = error && Number.isFinite(error[high]) && error[high] > 0 ? `${at(values)} ± ${text(error[high], 1)}` : at(values);
     });
   }
 
@@ -115,12 +158,14 @@ export class Panel {
 /** Columns over time: one panel each, and which of them are shown. */
 export class Columns {
   private readonly panels = new Map<string, Panel>();
+  private readonly nodes = tag("div", { class: "panels" });
   private time: number;
 
   constructor(
-    private readonly into: HTMLElement,
+    private readonly room: Room,
     private readonly times: Float64Array,
     private readonly columns: (Curve & { shown: boolean })[],
+    private readonly trusted: number | undefined,
     private readonly seek: (time: number) => void,
   ) {
     this.time = times[0];
@@ -134,8 +179,13 @@ export class Columns {
       return tag("label", {}, box, column.name, " ", tag("span", { class: "unit" }, column.unit));
     });
     const chooser = tag("details", {}, tag("summary", {}, "Columns"), tag("div", { class: "columns" }, ...boxes));
-    into.append(chooser, tag("div", { class: "panels" }), tag("p", { class: "abscissa" }, "time [s]"));
+    room.curves.append(chooser, this.nodes, tag("p", { class: "abscissa" }, "time [s]"));
     this.arrange();
+  }
+
+  /** Names of those that are shown. */
+  get shown(): string[] {
+    return this.columns.flatMap(({ name, shown }) => (shown ? [name] : []));
   }
 
   show(time: number) {
@@ -147,9 +197,9 @@ export class Columns {
     const shown = this.columns.filter((column) => column.shown);
     for (const column of shown) {
       if (this.panels.has(column.name)) continue;
-      this.panels.set(column.name, new Panel(this.times, [column], this.seek));
+      this.panels.set(column.name, new Panel(this.room, this.times, [column], this.seek, this.trusted));
     }
-    this.into.querySelector(".panels")!.replaceChildren(...shown.map(({ name }) => this.panels.get(name)!.node));
+    this.nodes.replaceChildren(...shown.map(({ name }) => this.panels.get(name)!.node));
     this.show(this.time);
   }
 }

@@ -4,6 +4,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import type { Room } from "./room";
 import type { Part, Scene, Section } from "./scene";
 import { nice, text } from "./text";
 
@@ -15,8 +16,21 @@ export interface Picture {
   sections: (Section[] | undefined)[];
   /** Points of every obstacle. */
   outlines: THREE.Vector3[][];
+  /** Axes of the beams of the answer it is compared with. */
+  others?: THREE.Vector3[][];
+  /** Forces: where, and an arrow. */
+  forces?: [THREE.Vector3, THREE.Vector3][];
   /** The frame of reference: what is drawn is seen from it. */
   frame: Section;
+}
+
+/** Where a picture is looked from. */
+export interface Seen {
+  size: number;
+  position: THREE.Vector3;
+  up: THREE.Vector3;
+  target: THREE.Vector3;
+  zoom: number;
 }
 
 export type View = "xy" | "xz" | "yz" | "space";
@@ -31,6 +45,19 @@ const directions: Record<View, [THREE.Vector3, THREE.Vector3]> = {
 /** Colours by the names of the style sheet. */
 const colour = (name: string) =>
   new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+
+/** One renderer a canvas: browsers allow few of them. */
+const renderers = new WeakMap<HTMLCanvasElement, THREE.WebGLRenderer>();
+
+/** None where the browser has no WebGL. */
+function renderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefined {
+  if (renderers.has(canvas)) return renderers.get(canvas);
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: true, preserveDrawingBuffer: true });
+  if (!context) return undefined;
+  const made = new THREE.WebGLRenderer({ canvas, context });
+  renderers.set(canvas, made);
+  return made;
+}
 
 class Line {
   readonly object: Line2;
@@ -170,7 +197,7 @@ class Solid {
 
 export class Stage {
   readonly size: number;
-  private readonly renderer: THREE.WebGLRenderer;
+  private readonly renderer: THREE.WebGLRenderer | undefined;
   private readonly camera = new THREE.OrthographicCamera();
   private readonly controls: OrbitControls;
   private readonly space = new THREE.Scene();
@@ -179,14 +206,16 @@ export class Stage {
   private readonly solids: (Solid | undefined)[];
   private readonly outlines: Line[];
   private paths: Line[] = [];
+  private readonly others: Line[] = [];
+  private readonly forces: Line[] = [];
   private readonly axes: Line[];
 
-  constructor(
-    private readonly canvas: HTMLCanvasElement,
-    private readonly bar: HTMLElement,
-    scene: Scene,
-  ) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+  private readonly canvas: HTMLCanvasElement;
+  private readonly bar: HTMLElement;
+
+  constructor({ canvas, scale, signal }: Room, scene: Scene) {
+    [this.canvas, this.bar] = [canvas, scale];
+    this.renderer = renderer(canvas);
     const length = ({ beam, box }: Part) =>
       beam ? (beam.hub ?? 0) + beam.stations[beam.stations.length - 1] : Math.max(...box!.slice(3));
     this.size = Math.max(...scene.parts.map(length));
@@ -201,7 +230,7 @@ export class Stage {
       letter.style.color = `var(--${name})`;
       return letter;
     });
-    bar.after(...names);
+    scale.after(...names);
     this.axes.forEach((axis, i) => {
       const end = new THREE.Vector3().setComponent(i, 0.15 * this.size);
       axis.place([new THREE.Vector3(), end]);
@@ -221,8 +250,18 @@ export class Stage {
       this.controls.touches.ONE = THREE.TOUCH.PAN;
     }
     this.controls.addEventListener("change", () => this.render());
-    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint());
+    const observer = new ResizeObserver(() => this.resize());
+    observer.observe(canvas.parentElement!);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint(), { signal });
+    signal.addEventListener("abort", () => {
+      observer.disconnect();
+      this.controls.dispose();
+      this.space.traverse((object) => {
+        const { geometry, material } = object as THREE.Mesh;
+        geometry?.dispose();
+        for (const one of [material ?? []].flat()) one.dispose();
+      });
+    });
     this.paint();
     this.turn(scene.planar ? "xy" : "space");
   }
@@ -273,6 +312,54 @@ export class Stage {
       this.solids[i]?.place(pose);
     });
     picture.outlines.forEach((points, i) => this.outlines[i].place(points));
+    this.draw(this.others, picture.others ?? [], () => new Line("curve1", 2.5, this.size / 40));
+    this.draw(this.forces, (picture.forces ?? []).map(([at, along]) => this.arrow(at, along)), () => new Line("force", 2));
+  }
+
+  /** Whether there is a picture at all. */
+  get shown(): boolean {
+    return this.renderer !== undefined;
+  }
+
+  /** Where it is looked from. */
+  get seen(): Seen {
+    const { position, up, zoom } = this.camera;
+    return { size: this.size, position: position.clone(), up: up.clone(), target: this.controls.target.clone(), zoom };
+  }
+
+  /** Looks from where another was seen, if that was of the same size. */
+  look({ size, position, up, target, zoom }: Seen): boolean {
+    if (Math.abs(size / this.size - 1) > 0.3) return false;
+    this.camera.position.copy(position);
+    this.camera.up.copy(up);
+    this.camera.zoom = zoom;
+    this.controls.target.copy(target);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    return true;
+  }
+
+  /** As many lines as there are lists of points. */
+  private draw(lines: Line[], all: THREE.Vector3[][], make: () => Line) {
+    while (lines.length < all.length) {
+      const line = make();
+      line.paint();
+      this.world.add(line.object);
+      lines.push(line);
+    }
+    lines.forEach((line, i) => {
+      if (all[i]) line.place(all[i]);
+      line.object.visible = all[i] !== undefined && all[i].length > 1;
+    });
+  }
+
+  private arrow(at: THREE.Vector3, along: THREE.Vector3): THREE.Vector3[] {
+    const end = at.clone().add(along);
+    const sight = this.camera.position.clone().sub(this.controls.target);
+    const side = along.clone().cross(sight.applyQuaternion(this.world.quaternion.clone().conjugate()));
+    side.setLength(0.12 * along.length());
+    const neck = at.clone().addScaledVector(along, 0.75);
+    return [at, end, neck.clone().add(side), end, neck.clone().sub(side)];
   }
 
   /** Paths of points, as seen from the frame of reference. */
@@ -296,6 +383,7 @@ export class Stage {
   }
 
   render() {
+    if (!this.renderer || this.canvas.clientWidth === 0) return;
     this.renderer.render(this.space, this.camera);
     const pixel = (this.camera.right - this.camera.left) / this.camera.zoom / this.canvas.clientWidth;
     const length = nice(110 * pixel);
@@ -306,8 +394,8 @@ export class Stage {
   private resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
     if (width === 0 || height === 0) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-    this.renderer.setSize(width, height, false);
+    this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer?.setSize(width, height, false);
     const half = this.size;
     const ratio = width / height;
     [this.camera.left, this.camera.right] = [-half * ratio, half * ratio];
@@ -317,7 +405,7 @@ export class Stage {
   }
 
   private paint() {
-    const painted = [...this.bodies, ...this.solids, ...this.outlines, ...this.paths, ...this.axes];
-    for (const drawn of painted) drawn?.paint();
+    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.forces];
+    for (const drawn of [...this.bodies, ...this.solids, ...lines]) drawn?.paint();
   }
 }

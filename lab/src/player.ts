@@ -1,38 +1,60 @@
 // Time: playing, stepping, the scrubber and the keys.
+import type { Room } from "./room";
 import { text } from "./text";
 
-const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
+/** What takes keys itself. */
+export const TYPED = "input:not([type=checkbox], [type=radio], [type=button]), textarea, dialog *";
 
 export class Player {
   time: number;
   private playing = false;
   private last = 0;
-  private readonly button = element<HTMLButtonElement>("play");
-  private readonly scrubber = element<HTMLInputElement>("scrubber");
-  private readonly clock = element<HTMLOutputElement>("clock");
-  private readonly select = element<HTMLSelectElement>("speed");
+  private readonly button: HTMLButtonElement;
+  private readonly scrubber: HTMLInputElement;
+  private readonly clock: HTMLOutputElement;
+  private readonly select: HTMLSelectElement;
 
   /** From the first to the last of the times; `label` says the time, `show` draws it. */
   constructor(
+    { play, scrubber, clock, speed: select, signal }: Room,
     private readonly times: Float64Array,
     private readonly label: (time: number) => string,
     private readonly show: (time: number) => void,
     private speed: number,
+    kept?: { share: number; playing: boolean },
   ) {
+    [this.button, this.scrubber, this.clock, this.select] = [play, scrubber, clock, select];
     const [start, end] = [times[0], times[times.length - 1]];
-    this.time = start;
+    this.time = start + (kept?.share ?? 0) * (end - start);
     [this.scrubber.min, this.scrubber.max] = [String(start), String(end)];
-    this.scrubber.setAttribute("aria-label", "Time");
     this.offer();
-    this.button.addEventListener("click", () => this.play(!this.playing));
-    this.scrubber.addEventListener("input", () => {
+    this.button.addEventListener("click", () => this.play(!this.playing), { signal });
+    const scrubbed = () => {
       this.play(false);
       this.seek(Number(this.scrubber.value));
-    });
-    this.select.addEventListener("change", () => (this.speed = Number(this.select.value)));
-    document.addEventListener("keydown", (event) => this.key(event));
-    this.play(times.length > 1 && !matchMedia("(prefers-reduced-motion: reduce)").matches);
-    requestAnimationFrame((now) => this.tick(now));
+    };
+    this.scrubber.addEventListener("input", scrubbed, { signal });
+    this.select.addEventListener("change", () => (this.speed = Number(this.select.value)), { signal });
+    document.addEventListener("keydown", (event) => this.key(event), { signal });
+    const still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.play(times.length > 1 && (kept?.playing ?? !still));
+    const tick = (now: number) => {
+      if (signal.aborted) return;
+      this.tick(now);
+      requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  /** What is kept for the next answer. */
+  get kept() {
+    const [start, end] = [this.times[0], this.times[this.times.length - 1]];
+    return { share: end > start ? (this.time - start) / (end - start) : 0, playing: this.playing };
+  }
+
+  /** Seconds that playing takes. */
+  get seconds() {
+    return (this.times[this.times.length - 1] - this.times[0]) / this.speed;
   }
 
   seek(time: number) {
@@ -69,8 +91,9 @@ export class Player {
 
   private key(event: KeyboardEvent) {
     const target = event.target as HTMLElement;
-    const own = target.matches(event.key === " " ? "select, button, summary, [type=checkbox]" : "select, [type=radio]");
-    if (own || event.ctrlKey || event.metaKey || event.altKey) return;
+    const own = target.matches(event.key === " " ? "select, button, summary, a, [type=checkbox]" : "select, [type=radio]");
+    const typed = target !== this.scrubber && target.matches(TYPED);
+    if (own || typed || target.isContentEditable || event.ctrlKey || event.metaKey || event.altKey) return;
     const by = event.shiftKey ? 10 : 1;
     const actions: Record<string, () => void> = {
       " ": () => this.play(!this.playing),
@@ -93,6 +116,5 @@ export class Player {
       const time = this.time + passed * this.speed;
       this.seek(time > end ? start : time);
     }
-    requestAnimationFrame((next) => this.tick(next));
   }
 }

@@ -1,8 +1,9 @@
 // A run in motion.
 import { Vector3 } from "three";
-import { numbers, type read } from "./data";
+import { numbers, type Results } from "./data";
 import { Columns } from "./curves";
 import { Player } from "./player";
+import type { Drawn, Kept, Room } from "./room";
 import { extent, instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { nice, steady, text } from "./text";
@@ -17,8 +18,6 @@ const LASTS = [4, 20];
 /** A deflection over length that is well seen: smaller ones are drawn larger. */
 const SEEN = 0.05;
 
-const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
-
 /** How many seconds of the run a second shows. */
 function speed(span: number): number {
   const [least, most] = LASTS;
@@ -26,23 +25,67 @@ function speed(span: number): number {
   return span < least ? nice(span / least) : span > most ? 2 * nice(span / most) : 1;
 }
 
-export function motion(results: ReturnType<typeof read>) {
+/** Draws a run; `other` is one that it is compared with, `kept` what is to be as it was in an answer before. */
+export function motion(results: Results, room: Room, kept?: Kept, other?: Results): Drawn {
   const space = scene(results.scene);
   const { times, parts } = space;
   const still: Section = { position: new Vector3(), turned: pose(parts[0], { from: 0, to: 0, share: 0 }).turned.identity() };
-  const canvas = element<HTMLCanvasElement>("canvas");
-  const stage = new Stage(canvas, element("scale"), space);
+  const stage = new Stage(room, space);
   const beams = parts.filter((part) => part.beam);
   const straight = beams.length > 0 && beams.every((part) => part.beam!.straight);
   // Tips of beams, or bodies where there is no beam.
   const followed = (beams.length > 0 ? beams : parts).slice(0, 12);
-  const columns = results.curves!.columns.map((column) => ({ ...column, values: numbers(column.values) }));
+  const { curves: table } = results;
+  const recorded = numbers(table!.times);
+  const columns = table!.columns.map((column) => ({
+    ...column,
+    values: numbers(column.values),
+    error: column.error ? numbers(column.error) : undefined,
+    other: compared(column.name),
+  }));
+  if (kept?.shown?.some((name) => columns.some((column) => column.name === name))) {
+    for (const column of columns) column.shown = kept.shown.includes(column.name);
+  }
   // Where none is of the usual ones, the first few.
   if (!columns.some((column) => column.shown)) for (const column of columns.slice(0, 3)) column.shown = true;
-  const recorded = numbers(results.curves!.times);
+  const pinned = other && Object.keys(other.scene).length > 0 ? scene(other.scene) : undefined;
   const revolutions = turns() / (2 * Math.PI);
   // Beyond half a revolution between frames nobody sees which way it turns.
-  let [factor, rotating, path] = [suggested(), revolutions > 0.5, true];
+  let factor = kept?.factor ?? suggested();
+  let rotating = kept?.rotating ?? revolutions > 0.5;
+  let path = kept?.path ?? true;
+  const forces = space.forces.map(({ values }) => values);
+  const strongest = Math.max(0, ...forces.map((values) => largest(values.filter((_, i) => i % 6 > 2))));
+
+  /** A column of the other run, at the times of this one. */
+  function compared(name: string): Float64Array | undefined {
+    const column = other?.curves?.columns.find((column) => column.name === name);
+    if (!column) return undefined;
+    const [times, values] = [numbers(other!.curves!.times), numbers(column.values)];
+    return recorded.map((time) => {
+      if (time > times[times.length - 1]) return NaN;
+      const { from, to, share } = instant(times, time);
+      return values[from] + share * (values[to] - values[from]);
+    });
+  }
+
+  /** Forces as arrows, the largest a fifth of the size. */
+  function arrows(at: Instant): [Vector3, Vector3][] {
+    const drawn = forces.flatMap((values): [Vector3, Vector3][] => {
+      const entry = (i: number) => values[6 * at.from + i] + at.share * (values[6 * at.to + i] - values[6 * at.from + i]);
+      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar((0.2 * stage.size) / (strongest || 1));
+      return along.length() > 1e-3 * stage.size ? [[new Vector3(entry(0), entry(1), entry(2)), along]] : [];
+    });
+    return drawn;
+  }
+
+  /** The beams of the other run. */
+  function others(time: number): Vector3[][] {
+    if (!pinned) return [];
+    const at = instant(pinned.times, time);
+    const drawn = pinned.parts.filter((part) => part.beam);
+    return drawn.map((part) => sections(part, at, factor, PIECES).map((section) => section.position));
+  }
 
   /** The largest angle [rad] by which the first part or its hub turns between neighbouring times. */
   function turns(): number {
@@ -119,65 +162,83 @@ export function motion(results: ReturnType<typeof read>) {
   function draw(time: number) {
     const at = instant(times, time);
     const outlines = space.outlines.map(({ points }) => outline(points, at));
-    stage.place({ poses: parts.map((part) => pose(part, at)), sections: shapes(at), outlines, frame: frame(at) });
+    stage.place({
+      poses: parts.map((part) => pose(part, at)),
+      sections: shapes(at),
+      outlines,
+      frame: frame(at),
+      others: others(time),
+      forces: arrows(at),
+    });
     stage.follow(Math.floor(pieces * (at.from + at.share)) + 1);
     stage.render();
   }
 
   const [start, end] = [times[0], times[times.length - 1]];
-  element("subtitle").textContent =
+  room.subtitle.textContent =
     `${results.name}, ${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
   let player: Player | undefined;
-  const curves = new Columns(element("curves"), recorded, columns, (time) => {
+  const curves = new Columns(room, recorded, columns, table!.trusted ?? undefined, (time) => {
     player?.play(false);
     player?.seek(time);
   });
   const note = () => {
     const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
     const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in its own frame.`;
-    const parts = [results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", larger];
-    element("note").textContent = parts.join(" ").trim();
+    const blind = stage.shown ? "" : "This browser has no WebGL: there is no picture, but curves.";
+    const forced = strongest > 0 ? `Arrows are forces, the longest ${text(strongest, 3)} N.` : "";
+    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, larger];
+    room.note.textContent = parts.join(" ").trim();
   };
-  const again = () => {
+  const again = (fitted = false) => {
     trace();
     note();
-    fit();
+    if (!fitted) fit();
     draw(player?.time ?? start);
   };
-  button("Fit", "f", fit);
+  button(room, "Fit", "f", fit);
   if (!space.planar) {
     const views: [string, View][] = [["space", "space"], ["x, y", "xy"], ["x, z", "xz"], ["y, z", "yz"]];
-    choice<View>("View", views, "space", (view) => {
+    choice<View>(room, "View", views, "space", (view) => {
       stage.turn(view);
       fit();
     });
   }
   const named = parts[0].beam?.hub === undefined ? `Frame of ${parts[0].name}` : "Rotating frame";
-  toggle(named, "r", rotating, (on) => {
+  toggle(room, named, "r", rotating, (on) => {
     rotating = on;
     again();
   });
-  toggle(beams.length > 0 ? "Tip path" : "Paths", "p", path, (on) => {
+  toggle(room, beams.length > 0 ? "Tip path" : "Paths", "p", path, (on) => {
     path = on;
     trace();
     draw(player!.time);
   });
   if (straight) {
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 1000, factor])].sort((a, b) => a - b);
-    choice("Deflection", factors.map((x): [string, number] => [`${text(x)} ×`, x]), factor, (x) => {
+    choice(room, "Deflection", factors.map((x): [string, number] => [`${text(x)} ×`, x]), factor, (x) => {
       factor = x;
       again();
     });
   }
-  player = new Player(times, (time) => `${steady(time)} s`, (time) => {
+  const show = (time: number) => {
     draw(time);
     curves.show(time);
-  }, speed(end - start));
-  let fitted = false;
-  canvas.addEventListener("resized", () => {
+  };
+  player = new Player(room, times, (time) => `${steady(time)} s`, show, speed(end - start), kept);
+  let fitted = kept?.seen !== undefined && stage.look(kept.seen);
+  const resized = () => {
     if (fitted) draw(player!.time);
     else fit();
     fitted = true;
-  });
-  again();
+  };
+  room.canvas.addEventListener("resized", resized, { signal: room.signal });
+  again(fitted);
+  player.seek(player.time);
+  return {
+    kept: () => ({ ...player!.kept, factor, rotating, path, seen: stage.seen, shown: curves.shown }),
+    seek: (share) => player!.seek(start + share * (end - start)),
+    play: (on) => player!.play(on),
+    seconds: player.seconds,
+  };
 }

@@ -12,6 +12,8 @@ interface Column {
   unit: string;
   shown: boolean;
   values: Encoded;
+  /** Half the width of the band of its error at every time. */
+  error?: Encoded | null;
 }
 
 export interface Vibration {
@@ -21,13 +23,13 @@ export interface Vibration {
   shares: Record<string, number>;
 }
 
-interface Results {
+export interface Results {
   title: string;
   name: string;
   version: string;
   caution?: string | null;
   scene: Record<string, Stored>;
-  curves?: { times: Encoded; columns: Column[] };
+  curves?: { times: Encoded; columns: Column[]; trusted?: number | null };
   modes?: {
     table: { unit: string; "speed-unit": string; speed: number; modes: Vibration[]; warnings: string[] };
     shapes: Record<string, Stored>;

@@ -1,8 +1,8 @@
 // What moves: parts with a pose at every time, beams with the displacements of their sections, obstacles with outlines.
 import { Quaternion, Vector3 } from "three";
-import { array, type read } from "./data";
+import { array, type Results } from "./data";
 
-type Arrays = ReturnType<typeof read>["scene"];
+type Arrays = Results["scene"];
 
 /** A part of the system. */
 export interface Part {
@@ -32,6 +32,8 @@ export interface Scene {
   parts: Part[];
   /** Outlines: three numbers a time and point. */
   outlines: { name: string; points: Float64Array }[];
+  /** Forces: six numbers a time, the place and the force. */
+  forces: { name: string; values: Float64Array }[];
   /** Whether all stays in the plane of the first two axes. */
   planar: boolean;
 }
@@ -78,7 +80,8 @@ export function scene(arrays: Arrays): Scene {
   const flat = (part: Part) =>
     part.poses.every((x, i) => ![2, 4, 5].includes(i % 7) || Math.abs(x) < 1e-12) &&
     (part.beam?.displacements.every((x, i) => i % 3 !== 2 || x === 0) ?? false);
-  return { times: get("time")!, parts, outlines, planar: parts.every(flat) };
+  const forces = names(".force").map((name) => ({ name, values: get(`${name}.force`)! }));
+  return { times: get("time")!, parts, outlines, forces, planar: parts.every(flat) };
 }
 
 /** Where `time` lies among ascending times. */
