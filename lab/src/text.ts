@@ -21,3 +21,8 @@ export function steady(x: number): string {
   const digits = size >= 1e5 || (size < 1e-3 && size > 0) ? x.toExponential(3) : x.toFixed(size >= 100 ? 1 : 4);
   return digits.replace(/-/g, "−").replace("e+", "e");
 }
+
+const PER_SECOND: Record<string, number> = { "rad/s": 1, rpm: Math.PI / 30, "deg/s": Math.PI / 180, Hz: 2 * Math.PI, "1/s": 2 * Math.PI };
+
+/** How many rad/s a unit of speed or frequency is. */
+export const inRadians = (unit: string) => PER_SECOND[unit] ?? 1;

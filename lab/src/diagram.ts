@@ -1,0 +1,104 @@
+// The Campbell diagram: frequencies over the speed of rotation; a click chooses the speed.
+import uPlot from "uplot";
+import { axis, plain, sized, styled, tag } from "./curves";
+import { numbers } from "./data";
+import type { Room } from "./room";
+import { inRadians, text } from "./text";
+
+export interface Campbell {
+  unit: string;
+  "speed-unit": string;
+  speeds: string;
+  modes: { frequency: string; moves?: string }[];
+  revolutions?: number;
+}
+
+const HEIGHT = 300;
+
+export function diagram(found: Campbell, room: Room, speed: number, choose: (speed: number) => void): HTMLElement {
+  const speeds = numbers(found.speeds);
+  const frequencies = found.modes.map(({ frequency }) => numbers(frequency));
+  const finite = frequencies.flatMap((of) => [...of].filter(Number.isFinite));
+  const most = 1.05 * Math.max(...finite, 1e-12);
+  // A speed in its unit as a frequency in its own.
+  const factor = inRadians(found["speed-unit"]) / inRadians(found.unit);
+  const revolutions = Math.min(found.revolutions ?? 4, 12);
+  const rays = Array.from({ length: revolutions }, (_, k) => k + 1);
+  const node = tag("div", { class: "campbell" });
+  const line = tag("div", { class: "cursor" });
+  const colour = (k: number) => styled(`curve${k % 6}`);
+  const options: uPlot.Options = {
+    ...plain(),
+    height: HEIGHT,
+    scales: { x: { time: false }, y: { range: [0, most] } },
+    axes: [
+      { ...axis(), size: 34, label: `speed [${found["speed-unit"]}]`, labelSize: 14, labelFont: "11px system-ui, sans-serif" },
+      { ...axis(), size: 58, space: 28, label: `frequency [${found.unit}]`, labelSize: 14, labelFont: "11px system-ui, sans-serif" },
+    ],
+    series: [
+      {},
+      ...rays.map((): uPlot.Series => ({ stroke: () => styled("faint"), width: 1, dash: [4, 4], points: { show: false } })),
+      ...frequencies.map((_, k): uPlot.Series => ({ stroke: () => colour(k), width: 1.75, points: { show: false } })),
+    ],
+    hooks: { draw: [(plot) => labels(plot)] },
+  };
+  const data = [
+    Array.from(speeds),
+    ...rays.map((k) => Array.from(speeds, (x) => (k * factor * x <= most ? k * factor * x : null))),
+    ...frequencies.map((of) => Array.from(of, (y) => (Number.isFinite(y) ? y : null))),
+  ];
+
+  /** Names of the lines kΩ and numbers of the modes at their right ends: colours alone tell nobody. */
+  function labels(plot: uPlot) {
+    const { ctx } = plot;
+    ctx.save();
+    ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
+    ctx.textAlign = "right";
+    const write = (values: (number | null)[], name: string, ink: string) => {
+      const last = values.findLastIndex((y) => y !== null);
+      if (last < 1) return;
+      ctx.fillStyle = ink;
+      const [x, y] = [plot.valToPos(speeds[last], "x", true), plot.valToPos(values[last]!, "y", true)];
+      ctx.fillText(name, x - 3 * devicePixelRatio, y - 4 * devicePixelRatio);
+    };
+    rays.forEach((k, i) => write(data[1 + i], `${k}Ω`, styled("dim")));
+    frequencies.forEach((_, k) => write(data[1 + rays.length + k], String(k + 1), colour(k)));
+    ctx.restore();
+  }
+
+  const plot = new uPlot(options, data as uPlot.AlignedData, node);
+  room.signal.addEventListener("abort", () => plot.destroy());
+  const { over } = plot;
+  over.append(line);
+  over.classList.add("seekable");
+  over.tabIndex = 0;
+  over.setAttribute("role", "slider");
+  over.setAttribute("aria-label", `Speed of rotation [${found["speed-unit"]}]`);
+  const [low, high] = [speeds[0], speeds[speeds.length - 1]];
+  const limit = (x: number) => Math.min(Math.max(x, low), high);
+  const mark = (x: number) => {
+    line.style.transform = `translateX(${plot.valToPos(limit(x), "x")}px)`;
+    for (const [name, value] of Object.entries({ valuemin: low, valuemax: high, valuenow: limit(x) })) {
+      over.setAttribute(`aria-${name}`, String(value));
+    }
+    over.setAttribute("aria-valuetext", `${text(limit(x), 3)} ${found["speed-unit"]}`);
+  };
+  over.addEventListener("click", (event) => {
+    const x = limit(plot.posToVal(event.clientX - over.getBoundingClientRect().left, "x"));
+    mark(x);
+    choose(Number(x.toPrecision(3)));
+  });
+  over.addEventListener("keydown", (event) => {
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (!by) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const x = limit(speed + (by * (high - low)) / 50);
+    mark(x);
+    choose(Number(x.toPrecision(3)));
+  });
+  sized(node, plot, HEIGHT, room.signal);
+  new ResizeObserver(() => mark(speed)).observe(over);
+  const about = `Click in the diagram to see the modes at that speed. Dashed lines kΩ: where a curve crosses one, k impulses a revolution excite that mode.`;
+  return tag("div", {}, node, tag("p", { class: "caption" }, about));
+}

@@ -1,0 +1,77 @@
+// The path of equilibria: the load factor over a displacement, with the states where stability is lost.
+import { tag } from "./curves";
+import { numbers } from "./data";
+import { nice, text } from "./text";
+
+export interface Path {
+  columns: { name: string; unit: string; values: string; shown: boolean }[];
+  "load-factor": string;
+  length: string;
+  unstable?: (number | null)[];
+  critical?: { index: number; name: string }[];
+}
+
+const [WIDTH, HEIGHT, LEFT, BELOW] = [360, 260, 56, 38];
+const SVG = "http://www.w3.org/2000/svg";
+
+function shape(name: string, attributes: Record<string, string | number>, words = ""): SVGElement {
+  const made = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+  made.textContent = words;
+  return made;
+}
+
+/** Round numbers within a range. */
+function ticks(low: number, high: number): number[] {
+  const step = nice((high - low) / 3.5);
+  const first = Math.ceil(low / step - 1e-9);
+  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => (first + k) * step);
+}
+
+/** One diagram for each column that is shown; unstable parts are dashed. */
+export function paths(found: Path): HTMLElement {
+  const factors = numbers(found["load-factor"]);
+  const shown = found.columns.filter((column) => column.shown).slice(0, 4);
+  const drawn = (shown.length > 0 ? shown : found.columns.slice(0, 2)).map((column) => one(column, factors, found));
+  const critical = (found.critical ?? []).map(({ index, name }) => tag("li", {}, `${name} at load factor ${text(factors[index], 6)}`));
+  const note = "The load factor multiplies all loads. Dashed: the equilibrium is not stable.";
+  return tag("div", {}, ...drawn, tag("ul", {}, ...critical), tag("p", { class: "caption" }, note));
+}
+
+function one({ name, unit, values }: Path["columns"][number], factors: Float64Array, found: Path): HTMLElement {
+  const across = numbers(values);
+  const range = (of: Float64Array): [number, number] => {
+    const [low, high] = [Math.min(...of), Math.max(...of)];
+    const room = high > low ? 0.05 * (high - low) : Math.abs(high) || 1;
+    return [low - room, high + room];
+  };
+  const [[x0, x1], [y0, y1]] = [range(across), range(factors)];
+  const x = (value: number) => LEFT + ((WIDTH - LEFT - 8) * (value - x0)) / (x1 - x0);
+  const y = (value: number) => HEIGHT - BELOW - ((HEIGHT - BELOW - 8) * (value - y0)) / (y1 - y0);
+  const label = `Load factor over ${name}`;
+  const svg = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": label, class: "path" });
+  for (const value of ticks(x0, x1)) {
+    svg.append(shape("line", { x1: x(value), x2: x(value), y1: 8, y2: HEIGHT - BELOW, class: "grid" }));
+    svg.append(shape("text", { x: x(value), y: HEIGHT - BELOW + 14, "text-anchor": "middle" }, text(value, 3)));
+  }
+  for (const value of ticks(y0, y1)) {
+    svg.append(shape("line", { x1: LEFT, x2: WIDTH - 8, y1: y(value), y2: y(value), class: "grid" }));
+    svg.append(shape("text", { x: LEFT - 5, y: y(value) + 4, "text-anchor": "end" }, text(value, 3)));
+  }
+  svg.append(shape("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 6, "text-anchor": "middle", class: "name" }, unit ? `${name} [${unit}]` : name));
+  svg.append(shape("text", { x: 4, y: 14, class: "name" }, "load factor"));
+  // Pieces of one stability each.
+  const stable = (k: number) => !((found.unstable?.[k] ?? 0) > 0);
+  for (let from = 0; from + 1 < factors.length; ) {
+    let to = from + 1;
+    while (to + 1 < factors.length && stable(to + 1) === stable(from + 1)) to++;
+    const points = Array.from({ length: to - from + 1 }, (_, k) => `${x(across[from + k]).toFixed(2)},${y(factors[from + k]).toFixed(2)}`);
+    svg.append(shape("polyline", { points: points.join(" "), class: stable(from + 1) ? "stable" : "unstable" }));
+    from = to;
+  }
+  for (const { index } of found.critical ?? []) {
+    svg.append(shape("circle", { cx: x(across[index]), cy: y(factors[index]), r: 4, class: "critical" }));
+  }
+  svg.append(shape("circle", { cx: x(across.at(-1)!), cy: y(factors.at(-1)!), r: 3, class: "last" }));
+  return tag("figure", {}, svg);
+}
