@@ -43,7 +43,7 @@ export interface Reply {
   version?: string;
   "work-per-second"?: number;
   schema?: Schema;
-  choices?: { path: string; kinds: { name: string; summary: string }[] }[];
+  choices?: { path: string; kinds: { name: string; example: string }[] }[];
   missing?: Problem[] | null;
   kind?: Kind;
   work?: number | null;

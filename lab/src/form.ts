@@ -34,8 +34,8 @@ export class Form {
   private shape = "";
   private everything = false;
   private entries: Entry[] = [];
-  /** Names of the kinds of tables. */
-  kinds = new Map<string, string[]>();
+  /** Kinds of tables with the keys of an example, by their paths. */
+  kinds = new Map<string, { name: string; example: string }[]>();
 
   /** `changed` is told of a value that the user chose; `sliding` says that more will follow. */
   constructor(
@@ -56,8 +56,9 @@ export class Form {
     this.rows = new Map(entries.map((entry) => [entry.path, this.row(entry)]));
     const groups = new Map<string, Entry[]>();
     for (const entry of entries) {
-      const parts = entry.path.split(".");
-      const group = /^\d+$/.test(parts[1] ?? "") ? `${parts[0]} ${parts[1]}` : parts.length > 1 ? parts[0] : "case";
+      const [head, ...rest] = entry.path.split(".");
+      const tabled = rest.length > 0 || entries.some(({ path }) => path.startsWith(`${head}.`));
+      const group = tabled ? head.replace("[", " ").replace("]", "") : "case";
       groups.set(group, [...(groups.get(group) ?? []), entry]);
     }
     const all = tag("input", { type: "checkbox" });
@@ -69,15 +70,18 @@ export class Form {
     const nodes = [...groups].map(([name, members]) =>
       tag("fieldset", {}, tag("legend", {}, word(name)), ...members.map(({ path }) => this.rows.get(path)!.node)),
     );
+    const order = (node: HTMLElement) => (node.textContent?.startsWith("case") ? 1 : 0);
+    nodes.sort((a, b) => order(a) - order(b));
     this.into.replaceChildren(...nodes, tag("label", { class: "all" }, all, "Values that are left out of the case, too"));
   }
 
   private row(entry: Entry): Row {
     const { path: key, takes, doc: meaning } = entry;
-    const choices = entry.choices ?? this.kinds.get(entry.choice ?? "");
-    const parts = key.split(".");
-    const short = parts.slice(/^\d+$/.test(parts[1] ?? "") ? 2 : parts.length > 1 ? 1 : 0);
-    const label = tag("label", { for: `key-${key}`, title: meaning }, word(short.join(" ")));
+    const kinds = this.kinds.get(entry.choice ?? "");
+    const choices = entry.choices ?? kinds?.map(({ name }) => name);
+    const [head, ...rest] = key.split(".");
+    const name = rest.length > 0 ? rest.join(" ") : takes === "kind" ? "kind" : head;
+    const label = tag("label", { for: `key-${key}`, title: meaning }, word(name));
     const help = tag("p", { class: "meaning" }, meaning);
     if (takes === "boolean") {
       const box = tag("input", { type: "checkbox", id: `key-${key}` });
@@ -87,9 +91,11 @@ export class Form {
     }
     if (choices?.length) {
       const select = tag("select", { id: `key-${key}` }, ...choices.map((choice) => new Option(word(choice), choice)));
-      select.addEventListener("change", () => this.changed(key, select.value, false));
+      // Another kind has other keys: it begins with those of its example.
+      const whole = (name: string) => kinds?.find((kind) => kind.name === name)?.example ?? name;
+      select.addEventListener("change", () => this.changed(key, whole(select.value), false));
       const node = tag("div", { class: "row" }, label, select, help);
-      return { node, take: (now) => (select.value = written(now)) };
+      return { node, take: (now) => (select.value = kinds ? now.value : written(now)) };
     }
     const box = tag("input", { type: "text", id: `key-${key}`, autocomplete: "off", spellcheck: "false" });
     box.addEventListener("change", () => this.changed(key, box.value, false));

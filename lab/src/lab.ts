@@ -52,7 +52,7 @@ const editor = new Editor(element("text"), (text) => {
   state.text = text;
   wait(() => change(), 250);
 });
-const form = new Form(element("form"), (key, value, sliding) => set([`${key}=${value}`], sliding));
+const form = new Form(element("form"), (key, value, sliding) => set([`${key.replace(/\[(\d+)\]/g, ".$1")}=${value}`], sliding));
 const answer = new Answer(room, element("notes"), element("values"), (speed) => {
   state.speed = speed;
   element<HTMLInputElement>("rotation").value = speed;
@@ -222,10 +222,13 @@ async function follow() {
   const fragment = location.hash.slice(1);
   if (fragment === written_ && state.text) return;
   written_ = fragment;
-  let asked: Link;
+  stale();
+  list([]);
+  said("opening …", undefined, "stop");
   try {
-    asked = await read(fragment);
-    await open(asked);
+    const asked = await read(fragment);
+    // A newer address is followed instead.
+    if (written_ === fragment) await open(asked);
   } catch (error) {
     refuse((error as Error).message);
   }
@@ -457,13 +460,23 @@ async function take(given: File[]) {
   change();
 }
 
+/** A kind with the table of its example. */
+function example(path: string, { name, example }: { name: string; example: string }) {
+  const own = path.split(".").at(-1)!;
+  const table = new RegExp(`(?:^|[\\s{,])${own}\\s*=\\s*(\\{.*)`, "s").exec(example)?.[1];
+  if (!table) return { name, example: `{ kind = "${name}" }` };
+  let depth = 0;
+  const end = [...table].findIndex((c) => (depth += c === "{" ? 1 : c === "}" ? -1 : 0) === 0);
+  return { name, example: table.slice(0, end + 1) };
+}
+
 addEventListener("hashchange", follow);
 addEventListener("popstate", follow);
 void computer.ready.then(
   ({ version: of, schema, choices }) => {
     version = of ?? "";
     editor.schema = schema;
-    form.kinds = new Map((choices ?? []).map(({ path, kinds }) => [path, kinds.map(({ name }) => name)]));
+    form.kinds = new Map((choices ?? []).map(({ path, kinds }) => [path, kinds.map((kind) => example(path, kind))]));
   },
   (error) => failed(`The engine could not be started: ${error.message}`),
 );

@@ -176,7 +176,7 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
 
   const [start, end] = [times[0], times[times.length - 1]];
   room.subtitle.textContent =
-    `${results.name}, ${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
+    `${results.name === results.title ? "" : `${results.name}, `}${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
   let player: Player | undefined;
   const curves = new Columns(room, recorded, columns, table!.trusted ?? undefined, (time) => {
     player?.play(false);

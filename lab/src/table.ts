@@ -8,8 +8,9 @@ export function stated(value: number | null | undefined, error?: number | null):
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (error === null || error === undefined || !Number.isFinite(error)) return text(value, 5);
   if (error === 0) return `${text(value, 8)} ± 0`;
-  const power = Math.floor(Math.log10(error));
   const size = Math.abs(value);
+  // No more than eight digits, however small the error.
+  const power = Math.max(Math.floor(Math.log10(error)), size > 0 ? Math.floor(Math.log10(size)) - 7 : -12);
   const true_ = (written: string) => written.replace(/-/g, "−").replace("e+", "e");
   if (size !== 0 && (size < 1e-3 || size >= 1e6)) {
     const digits = Math.min(Math.max(Math.floor(Math.log10(size)) - power, 0), 12);
