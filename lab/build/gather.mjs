@@ -1,12 +1,14 @@
 // Gathers the gallery: every case of verification/ and every item of papers/, with title, sentence, runs and files.
 //
-//     node build/gather.mjs        writes made/gallery.json
+//     node build/gather.mjs        writes made/gallery.json, and large files into made/files.json
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, posix } from "node:path";
 import { parse } from "smol-toml";
 
 const root = join(import.meta.dirname, "../..");
-/** Larger files, and those of other formats, are left to those who have the repository [bytes]. */
+/** Larger files lie beside the page, and are read when their case is opened [bytes]. */
+const LARGE = 20_000;
+/** Still larger files, those of other formats, are left to those who have the repository [bytes]. */
 const LARGEST = 70_000;
 
 const text = (path) => readFileSync(join(root, path), "utf8");
@@ -32,7 +34,8 @@ function files(folder, texts) {
     if (!/\.(csv|dat)$/i.test(name) || found[name] !== undefined || path.startsWith("..") || !existsSync(join(root, path))) return;
     const content = text(path);
     if (content.length > LARGEST) return;
-    found[name] = content;
+    if (content.length > LARGE) large[posix.basename(name)] = content;
+    found[name] = content.length > LARGE ? null : content;
     if (!/\.(dat|inp|yaml|yml|htc)$/i.test(name)) return;
     for (const [, further] of content.slice(0, 20000).matchAll(/^\s*"([^"\n]+\.(?:dat|csv|inp))"/gim)) {
       const beside = posix.join(posix.dirname(name), further);
@@ -44,6 +47,7 @@ function files(folder, texts) {
 }
 
 const cases = {};
+const large = {};
 const items = [];
 
 for (const name of folders("verification")) {
@@ -90,6 +94,7 @@ for (const paper of folders("papers")) {
         return { name: filled(run.name), case: `papers/${paper}/cases/${run.case}.toml`, set: (run.set ?? []).map(filled), ...modes };
       }),
     );
+    // A case is named with a run where it is not that of the item.
     const first = runs[0]?.case ?? Object.keys(cases).find((name) => name.startsWith(`papers/${paper}/`));
     items.push({
       id: `${paper}/${item}`,
@@ -98,7 +103,9 @@ for (const paper of folders("papers")) {
       title: `${item}. ${of.title}`,
       sentence: plain(of.claim?.[0]?.text ?? of.survives ?? of.chosen ?? about.about),
       case: first,
-      runs: runs.length > 0 ? runs : [{ name: "the case", set: [] }],
+      runs: runs.length > 0 ? runs.map(({ case: of, ...run }) => (of === first ? run : { ...run, case: of })) : [{ name: "the case", set: [] }],
+      // The curves of its first plot.
+      ...(of.plot?.[0]?.y && !of.plot[0].x && { plot: { y: of.plot[0].y, runs: of.plot[0].runs?.slice(0, 3), from: of.plot[0].from, to: of.plot[0].to } }),
       ...(of.drawing && { drawing: `papers/${paper}/${of.drawing}` }),
     });
   }
@@ -107,5 +114,6 @@ for (const paper of folders("papers")) {
 const made = join(import.meta.dirname, "../made");
 mkdirSync(made, { recursive: true });
 writeFileSync(join(made, "gallery.json"), JSON.stringify({ cases, items }));
+writeFileSync(join(made, "files.json"), JSON.stringify(large));
 const runs = items.reduce((sum, item) => sum + item.runs.length, 0);
 console.log(`${items.length} items with ${runs} runs of ${Object.keys(cases).length} cases`);

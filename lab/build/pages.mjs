@@ -2,7 +2,7 @@
 //
 //     node build/pages.mjs [ENGINE.wasm]
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, readFileSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 
@@ -16,13 +16,17 @@ run("tsc");
 run("vite", "build", "--mode", "view");
 run("vite", "build");
 const page = readFileSync(file("index.html"), "utf8");
+const large = readFileSync(join(lab, "made/files.json"), "utf8");
+mkdirSync(file("files"), { recursive: true });
+for (const [name, text] of Object.entries(JSON.parse(large))) writeFileSync(join(lab, "dist/files", name), text);
 console.log(`view.html ${kilobytes(gzipSync(readFileSync(file("view.html"))))}, index.html ${kilobytes(gzipSync(page))} compressed`);
 
 const engine = process.argv[2] ?? join(lab, "../target/wasm32-unknown-unknown/wasm/flexion_lab.wasm");
 if (existsSync(engine)) {
   const packed = gzipSync(readFileSync(engine), { level: 9 });
   copyFileSync(engine, file("engine.wasm"));
-  writeFileSync(file("lab.html"), page.replace(">the engine<", () => `>${packed.toString("base64")}<`));
+  const within = page.replace(">the engine<", () => `>${packed.toString("base64")}<`).replace(">{}<", () => `>${large.replaceAll("<", "\\u003c")}<`);
+  writeFileSync(file("lab.html"), within);
   console.log(`engine.wasm ${kilobytes(packed)} compressed, lab.html ${kilobytes(readFileSync(file("lab.html")))} with it within`);
 } else {
   console.log(`there is no engine at ${engine}: index.html needs engine.wasm beside it`);

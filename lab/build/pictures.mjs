@@ -2,7 +2,7 @@
 //
 //     node build/pictures.mjs ENGINE.wasm FOLDER
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { basename, join } from "node:path";
 import { engine } from "./engine.mjs";
 
 const [WIDTH, HEIGHT, CURVE] = [240, 150, 44];
@@ -10,9 +10,9 @@ const [WIDTH, HEIGHT, CURVE] = [240, 150, 44];
 const WORK = 1e6;
 const STYLE =
   "<style>.b{fill:none;stroke:#1f5fa8;stroke-width:1.6;stroke-linecap:round}.p{fill:none;stroke:#d0812f;stroke-width:1}" +
-  ".o{fill:none;stroke:#a33a32;stroke-width:1.5}.c{fill:none;stroke:#1f5fa8;stroke-width:1.2}.a{stroke:#c9ced5;stroke-width:1}" +
+  ".o{fill:none;stroke:#a33a32;stroke-width:1.5}.c{fill:none;stroke:#1f5fa8;stroke-width:1.3}.k1{stroke:#c4701f;stroke-dasharray:5 2}.k2{stroke:#3c8548;stroke-dasharray:2 2}.a{stroke:#c9ced5;stroke-width:1}" +
   ".s{fill:none;stroke:#5b626d;stroke-width:1.2}text{font:9px system-ui,sans-serif;fill:#5b626d}" +
-  "@media(prefers-color-scheme:dark){.b,.c{stroke:#7db2ea}.p{stroke:#e39a51}.o{stroke:#e27d73}.a{stroke:#363c45}.s{stroke:#9aa3af}text{fill:#9aa3af}}</style>";
+  "@media(prefers-color-scheme:dark){.b,.c{stroke:#7db2ea}.k1{stroke:#e39a51}.k2{stroke:#7cc487}.p{stroke:#e39a51}.o{stroke:#e27d73}.a{stroke:#363c45}.s{stroke:#9aa3af}text{fill:#9aa3af}}</style>";
 
 function numbers(encoded) {
   const [kind, text] = encoded.split(":");
@@ -63,7 +63,9 @@ function shapes(scene) {
   return { count, parts, outlines };
 }
 
-function drawn({ scene, curves }) {
+function drawn(results) {
+  const { scene } = results;
+  const first = column(results);
   const { count, parts, outlines } = shapes(scene);
   const times = [...new Set(Array.from({ length: 7 }, (_, k) => Math.round((k * (count - 1)) / 6)))];
   const lines = times.map((t) => parts.map((part) => part.at(t)));
@@ -89,30 +91,41 @@ function drawn({ scene, curves }) {
     ...paths.map((path) => line(path, "p")),
     ...obstacles.filter((of) => of.length > 1).map((of) => line(of, "o")),
     ...lines.flatMap((all, k) => all.map((of, i) => line(of, parts[i].beam ? "b" : "s", (0.2 + (0.8 * (k + 1)) / lines.length).toFixed(2)))),
-    curve(curves),
+    curves(first.name, [first], HEIGHT - CURVE),
   ].join("");
 }
 
-/** The first column that is shown, below. */
-function curve({ times: encoded, columns }) {
-  const times = numbers(encoded);
-  const column = columns.find(({ shown }) => shown) ?? columns[0];
-  if (!column || times.length < 2) return "";
-  const values = numbers(column.values);
-  const every = Math.max(1, Math.floor(times.length / 400));
-  const kept = [...values.keys()].filter((i) => i % every === 0 && Number.isFinite(values[i]));
-  const [low, high] = [Math.min(...kept.map((i) => values[i])), Math.max(...kept.map((i) => values[i]))];
-  const [top, bottom] = [HEIGHT - CURVE + 12, HEIGHT - 5];
-  const x = (t) => 10 + ((WIDTH - 20) * (t - times[0])) / (times.at(-1) - times[0] || 1);
-  const y = (v) => bottom - ((bottom - top) * (v - low)) / (high - low || 1);
-  const points = kept.map((i) => `${x(times[i]).toFixed(1)},${y(values[i]).toFixed(1)}`);
-  const name = column.name.replace(/[<&]/g, "");
-  return `<line class="a" x1="0" x2="${WIDTH}" y1="${HEIGHT - CURVE}" y2="${HEIGHT - CURVE}"/><text x="10" y="${HEIGHT - CURVE + 9}">${name}</text><polyline class="c" points="${points.join(" ")}"/>`;
+/** Curves over time in the lower part of a picture, from `top` on. */
+function curves(name, lists, top) {
+  const finite = lists.flatMap(({ times, values }) => [...times.keys()].filter((i) => Number.isFinite(values[i])).map((i) => [times[i], values[i]]));
+  if (finite.length < 2) return "";
+  const range = (i) => finite.reduce(([low, high], pair) => [Math.min(low, pair[i]), Math.max(high, pair[i])], [Infinity, -Infinity]);
+  const [[t0, t1], [low, high]] = [range(0), range(1)];
+  const bottom = HEIGHT - 6;
+  const x = (t) => 10 + ((WIDTH - 20) * (t - t0)) / (t1 - t0 || 1);
+  const y = (v) => bottom - ((bottom - top - 14) * (v - low)) / (high - low || 1);
+  const line = ({ times, values }, k) => {
+    const every = Math.max(1, Math.floor(times.length / 400));
+    const kept = [...times.keys()].filter((i) => i % every === 0 && Number.isFinite(values[i]));
+    return `<polyline class="c k${k}" points="${kept.map((i) => `${x(times[i]).toFixed(1)},${y(values[i]).toFixed(1)}`).join(" ")}"/>`;
+  };
+  const rule = top > 0 ? `<line class="a" x1="0" x2="${WIDTH}" y1="${top}" y2="${top}"/>` : "";
+  return `${rule}<text x="10" y="${top + 10}">${name.replace(/[<&]/g, "")}</text>${lists.map(line).join("")}`;
+}
+
+/** A column of results within some times. */
+function column(results, name, from = -Infinity, to = Infinity) {
+  const all = numbers(results.curves.times);
+  const found = results.curves.columns.find((column) => column.name === name) ?? results.curves.columns.find(({ shown }) => shown) ?? results.curves.columns[0];
+  const values = numbers(found.values);
+  const kept = [...all.keys()].filter((i) => all[i] >= from && all[i] <= to);
+  return { name: found.name, times: kept.map((i) => all[i]), values: kept.map((i) => values[i]) };
 }
 
 const [file, folder] = process.argv.slice(2);
 const root = join(import.meta.dirname, "../..");
 const { cases, items } = JSON.parse(readFileSync(join(root, "lab/made/gallery.json"), "utf8"));
+const large = JSON.parse(readFileSync(join(root, "lab/made/files.json"), "utf8"));
 const ask = await engine(file);
 mkdirSync(folder, { recursive: true });
 const without = [];
@@ -123,12 +136,21 @@ for (const item of items) {
     writeFileSync(name, drawing.replace(/<svg([^>]*)>/, `<svg$1><style>svg{color:#1c1f24}@media(prefers-color-scheme:dark){svg{color:#e4e7eb}}</style>`));
     continue;
   }
-  const [run] = item.runs;
-  const { text, files } = cases[run.case ?? item.case];
-  const encoded = Object.fromEntries(Object.entries(files).map(([name, text]) => [name, Buffer.from(text).toString("base64")]));
-  const reply = ask({ do: "run", case: text, files: encoded, set: run.set, errors: false, limits: { work: WORK, memory: 256e6 } });
-  const picture = reply.results?.scene && Object.keys(reply.results.scene).length > 0 ? drawn(reply.results) : undefined;
+  const answer = (run) => {
+    const { text, files } = cases[run.case ?? item.case];
+    const encoded = Object.fromEntries(Object.entries(files).map(([name, text]) => [name, Buffer.from(text ?? large[basename(name)]).toString("base64")]));
+    return ask({ do: "run", case: text, files: encoded, set: run.set, errors: false, limits: { work: WORK, memory: 256e6 } });
+  };
+  const chosen = item.plot?.runs?.flatMap((name) => item.runs.filter((run) => run.name === name)) ?? [];
+  const runs = item.plot ? (chosen.length > 0 ? chosen : item.runs.slice(0, 3)) : item.runs.slice(0, 1);
+  const replies = runs.map(answer);
+  const found = replies.flatMap(({ results }) => (results?.curves ? [results] : []));
+  let picture;
+  if (item.plot && found.length > 0) {
+    const { y, from, to } = item.plot;
+    picture = curves(y, found.map((results) => column(results, y, from, to)), 0);
+  } else if (found[0]?.scene && Object.keys(found[0].scene).length > 0) picture = drawn(found[0]);
   if (picture) writeFileSync(name, `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${HEIGHT}">${STYLE}${picture}</svg>`);
-  else without.push(`${item.id} (${reply.message ?? reply.problems?.[0]?.message ?? reply.status})`);
+  else without.push(`${item.id} (${replies[0].message ?? replies[0].problems?.[0]?.message ?? replies[0].status})`);
 }
 console.log(`${items.length - without.length} pictures${without.length > 0 ? `, none of ${without.join(", ")}` : ""}`);

@@ -23,7 +23,7 @@ const node = (name, ...words) => execFileSync("node", [join(lab, "build", name),
 rmSync(site, { recursive: true, force: true });
 mkdirSync(join(site, "lab"), { recursive: true });
 node("pages.mjs", file);
-for (const name of ["index.html", "engine.wasm", "lab.html"]) cpSync(join(lab, "dist", name), join(site, "lab", name));
+for (const name of ["index.html", "engine.wasm", "lab.html", "files"]) cpSync(join(lab, "dist", name), join(site, "lab", name), { recursive: true });
 node("pictures.mjs", file, join(site, "lab/pictures"));
 
 const { items } = JSON.parse(readFileSync(join(lab, "made/gallery.json"), "utf8"));

@@ -29,7 +29,8 @@ export interface Item {
 
 interface Case {
   text: string;
-  files: Record<string, string>;
+  /** Texts; a large one lies beside the page. */
+  files: Record<string, string | null>;
 }
 
 const gallery = stored as unknown as { cases: Record<string, Case>; items: Item[] };
@@ -39,12 +40,26 @@ const cases = new Map(Object.entries(gallery.cases));
 export const first = "p1_spin_up_4";
 
 /** An item with one of its runs. */
-export function named(id: string, run?: string): { item: Item; run: Run; text: string; files: Record<string, string>; path: string } | undefined {
+export function named(id: string, run?: string): { item: Item; run: Run; text: string; files: Record<string, string | null>; path: string } | undefined {
   const item = items.get(id);
   const found = item && (run === undefined ? item.runs[0] : item.runs.find(({ name }) => name === run));
   const path = found?.case ?? item?.case;
   const of = path === undefined ? undefined : cases.get(path);
   return item && found && of && { item, run: found, text: of.text, files: of.files, path: path! };
+}
+
+/** The texts of files; large ones are within the page, or else beside it. */
+export async function texts(files: Record<string, string | null>): Promise<Record<string, string>> {
+  const within = JSON.parse(document.getElementById("files")?.textContent ?? "{}") as Record<string, string>;
+  const found = Object.entries(files).map(async ([name, text]): Promise<[string, string]> => {
+    const own = name.split("/").at(-1)!;
+    if (text !== null) return [name, text];
+    if (Object.hasOwn(within, own)) return [name, within[own]];
+    const answer = await fetch(`files/${own}`);
+    if (!answer.ok) throw new Error(`The file ${own} of this case cannot be read.`);
+    return [name, await answer.text()];
+  });
+  return Object.fromEntries(await Promise.all(found));
 }
 
 /** The name that is nearest to one that there is not. */

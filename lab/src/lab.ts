@@ -264,7 +264,7 @@ async function open(asked: Link) {
       const near = gallery.nearest(id);
       throw new Error(`There is no case “${id}”${asked.run ? ` with a run “${asked.run}”` : ""} in the gallery.${near ? ` The nearest is “${near}”.` : ""}`);
     }
-    const files = Object.fromEntries(Object.entries(found.files).map(([name, text]) => [name, base64(new TextEncoder().encode(text))]));
+    const files = Object.fromEntries(Object.entries(await gallery.texts(found.files)).map(([name, text]) => [name, base64(new TextEncoder().encode(text))]));
     const own = asked.named && asked.kind ? undefined : (found.run.do ?? found.item.do);
     const changes = [...found.run.set, ...asked.set];
     const text = changes.length > 0 ? await computer.change(found.text, changes, files) : found.text;
