@@ -1,10 +1,11 @@
 // The answer: what the engine says of a case, drawn in the room, with what concerns it.
 import { tag } from "./curves";
-import { diagram, type Campbell } from "./diagram";
+import { campbell, diagram } from "./diagram";
+import type { Results } from "./data";
 import { moving, type Kind, type Reply } from "./engine";
 import { modes } from "./modes";
 import { motion } from "./motion";
-import { paths, type Path } from "./path";
+import { path } from "./path";
 import type { Drawn, Kept, Room } from "./room";
 import { table } from "./table";
 import { steady, text } from "./text";
@@ -22,8 +23,6 @@ const MOST = 50;
 export class Answer {
   private drawn?: Drawn;
   private kind?: Kind;
-  /** Of a Campbell diagram: the diagram, whose modes are drawn at one of its speeds. */
-  private campbell?: Campbell;
 
   constructor(
     private readonly room: Room,
@@ -54,7 +53,7 @@ export class Answer {
     const other = pin?.kind === kind ? pin : undefined;
     if (kind === "run") this.run(reply, kept, other);
     else if (kind === "modes") this.drawn = modes(moving(reply), this.room, kept);
-    else if (kind === "statics") this.statics(reply, kept);
+    else if (kind === "statics") this.statics(reply);
     this.remark(reply, remark, other);
   }
 
@@ -63,19 +62,19 @@ export class Answer {
     const kept = this.kind === "campbell" ? this.drawn?.kept() : undefined;
     this.clear();
     this.kind = "campbell";
-    this.campbell = reply.results as Campbell;
-    const unit = this.campbell["speed-unit"];
+    const of = campbell(reply);
+    const unit = of["speed-unit"];
     this.room.stage.hidden = at?.results === undefined;
     if (at?.results) this.drawn = modes(moving(at), this.room, kept);
-    const found = diagram(this.campbell, this.room, speed, (speed) => this.choose(`${speed} ${unit}`));
+    const found = diagram(of, this.room, speed, (speed) => this.choose(`${speed} ${unit}`));
     this.room.curves.prepend(found, tag("h2", {}, `Modes at ${text(speed, 3)} ${unit}`));
     this.remark({ ...reply, warnings: [...(reply.warnings ?? []), ...(at?.warnings ?? [])] }, remark);
   }
 
   /** Draws a run: its motion, its columns, its values and its events. */
   private run(reply: Reply, kept: Kept | undefined, pin: Pin | undefined) {
-    const results = moving(reply);
     const { summary } = reply;
+    const results = banded(moving(reply), summary);
     const moves = results?.scene && Object.keys(results.scene).length > 0;
     this.room.stage.hidden = !moves;
     if (moves) this.drawn = motion(results, this.room, kept, pin && moving(pin.reply));
@@ -84,13 +83,9 @@ export class Answer {
     if (events) this.values.append(events);
   }
 
-  private statics(reply: Reply, kept: Kept | undefined) {
-    const found = reply.results as (Path & { scene?: Record<string, never>; curves?: unknown }) | undefined;
-    if (!found) return;
-    const moves = found.scene && Object.keys(found.scene).length > 0 && found.curves;
-    this.room.stage.hidden = !moves;
-    if (moves) this.drawn = motion(moving(reply), this.room, kept);
-    this.room.curves.prepend(paths(found));
+  private statics(reply: Reply) {
+    this.room.stage.hidden = true;
+    this.room.curves.append(path(reply));
   }
 
   /** What concerns the answer: that it is of another version, what it is compared with, warnings, trust. */
@@ -98,6 +93,7 @@ export class Answer {
     const add = (name: string, ...words: (string | Node)[]) => this.notes.append(tag("p", { class: name }, ...words));
     if (remark) add("remark", remark);
     if (reply.status === "failed") add("failed", `The run stopped early: ${reply.message ?? "no reason is given"}`);
+    if (reply.status === "given-up" && reply.results) add("doubt", `This answer is not whole: ${reply.message ?? "it was given up"}.`);
     if (pin) add("pinned", `Dashed: the pinned answer, ${pin.name}.`);
     const trust = reply.summary?.trust;
     const end = reply.summary?.end_time;
@@ -112,6 +108,18 @@ export class Answer {
     list.open = warnings.length < 3;
     this.notes.append(list);
   }
+}
+
+/** With the largest error of a column as its band, where there is none over time. */
+function banded(results: Results, summary: Reply["summary"]): Results {
+  const { curves } = results ?? {};
+  const trust = summary?.trust;
+  if (!curves || !trust?.estimated) return results;
+  const columns = curves.columns.map((column) => ({
+    ...column,
+    error: column.error ?? summary?.columns?.[column.name]?.error?.discretization,
+  }));
+  return { ...results, curves: { ...curves, columns, trusted: curves.trusted ?? trust.until } };
 }
 
 /** Events as they are listed in events.csv, in columns of their own. */

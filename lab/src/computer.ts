@@ -1,4 +1,5 @@
 // What is computed when: the newest case at once, its errors when it rests, nothing long before a click.
+import { nice } from "./text";
 import { Lane, load, Stopped, type Kind, type Reply, type Request } from "./engine";
 
 export interface Asked {
@@ -8,6 +9,8 @@ export interface Asked {
   set?: string[];
   kind: Kind;
   speed?: string;
+  /** Speeds of a Campbell diagram. */
+  range?: string;
   /** A Campbell diagram of this case that there is already. */
   diagram?: Reply;
   /** More of the same will follow at once. */
@@ -92,7 +95,7 @@ export class Computer {
 
   /** The files that the program would write. */
   files(asked: Asked): Promise<Reply> {
-    return this.quick.ask({ ...this.request(asked), do: "files", analysis: asked.kind, errors: true, limits: this.limits(true) });
+    return this.quick.ask({ ...this.request(asked), do: "files", of: asked.kind, errors: true, limits: this.limits(true) });
   }
 
   private limits(lifted = this.lifted) {
@@ -115,9 +118,10 @@ export class Computer {
     this.told.failed(`The engine stopped: ${what}. It has been started anew; change the case and it computes again.`);
   }
 
-  private request({ text, files, kind, speed }: Asked): Request {
+  private request({ text, files, kind, speed, range }: Asked): Request {
     const request: Request = { do: kind, case: text, files, limits: this.limits() };
     if (kind === "modes") request.speed = speed ?? "0 rad/s";
+    if (kind === "campbell") request.speeds = range;
     return request;
   }
 
@@ -150,7 +154,8 @@ export class Computer {
     let first: Reply;
     let modes: Reply | undefined;
     if (kind === "campbell") {
-      first = asked.diagram ?? (await this.ask(this.request(asked)));
+      const range = asked.range ?? (await this.range(asked));
+      first = asked.diagram ?? (await this.ask(this.request({ ...asked, range })));
       if (!this.fine(first)) return;
       modes = await this.ask({ ...this.request({ ...asked, kind: "modes" }), count: 6 });
     } else {
@@ -158,6 +163,10 @@ export class Computer {
       if (!this.fine(first)) return;
     }
     this.told.answered(kind, first, modes);
+    if (first.status === "given-up") {
+      this.told.said("This is as far as two seconds of work lead.", undefined, "compute");
+      return;
+    }
     this.told.said("");
     if (kind !== "run" || this.wanted) return;
     if (asked.sliding) await new Promise((resolve) => setTimeout(resolve, 300));
@@ -171,13 +180,21 @@ export class Computer {
     else this.told.said("");
   }
 
+  /** Speeds up to twice the lowest frequency, where the case says no speed. */
+  private async range(asked: Asked): Promise<string> {
+    const reply = await this.ask({ ...this.request({ ...asked, kind: "modes" }), speed: "0 rad/s", unit: "rad/s", count: 8 });
+    const modes = (reply.summary?.modes ?? []) as { frequency: number }[];
+    const lowest = modes.map(({ frequency }) => frequency).filter((frequency) => frequency > 1e-6);
+    return `0 rad/s:${nice(2 * (lowest[0] ?? 5))} rad/s:31`;
+  }
+
   /** Whether there is something to be drawn; else it says why not. */
   private fine(reply: Reply): boolean {
+    if (reply.results) return true;
     if (reply.status === "given-up") {
       this.told.said("This takes more than two seconds.", undefined, "compute");
       return false;
     }
-    if (reply.results) return true;
     const words = reply.problems?.map(({ message }) => message).join("; ") || reply.message || "There is no answer.";
     this.told.failed(words);
     return false;

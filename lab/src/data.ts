@@ -2,7 +2,7 @@
 
 type Encoded = string;
 
-interface Stored {
+export interface Stored {
   shape: number[];
   values: Encoded;
 }
@@ -13,7 +13,7 @@ interface Column {
   shown: boolean;
   values: Encoded;
   /** Half the width of the band of its error at every time. */
-  error?: Encoded | null;
+  error?: Encoded | number | null;
 }
 
 export interface Vibration {

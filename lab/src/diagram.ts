@@ -1,29 +1,41 @@
 // The Campbell diagram: frequencies over the speed of rotation; a click chooses the speed.
 import uPlot from "uplot";
 import { axis, plain, sized, styled, tag } from "./curves";
-import { numbers } from "./data";
+import { array, type Stored } from "./data";
+import type { Reply } from "./engine";
 import type { Room } from "./room";
 import { inRadians, text } from "./text";
 
 export interface Campbell {
   unit: string;
   "speed-unit": string;
-  speeds: string;
-  modes: { frequency: string; moves?: string }[];
-  revolutions?: number;
+  speeds: Float64Array;
+  modes: { frequency: Float64Array; moves: string }[];
+}
+
+/** The diagram in a reply. */
+export function campbell({ results, summary, moves }: Reply): Campbell {
+  const { curves } = results as { curves: Record<string, Stored> };
+  const names = Object.keys(curves).filter((name) => /^mode\d+\.frequency$/.test(name));
+  names.sort((a, b) => Number.parseInt(a.slice(4)) - Number.parseInt(b.slice(4)));
+  return {
+    unit: String(summary?.unit ?? ""),
+    "speed-unit": String(summary?.["speed-unit"] ?? ""),
+    speeds: array(curves, "speed")!,
+    modes: names.map((name, k) => ({ frequency: array(curves, name)!, moves: moves?.[k] ?? "" })),
+  };
 }
 
 const HEIGHT = 300;
 
 export function diagram(found: Campbell, room: Room, speed: number, choose: (speed: number) => void): HTMLElement {
-  const speeds = numbers(found.speeds);
-  const frequencies = found.modes.map(({ frequency }) => numbers(frequency));
+  const { speeds } = found;
+  const frequencies = found.modes.map(({ frequency }) => frequency);
   const finite = frequencies.flatMap((of) => [...of].filter(Number.isFinite));
   const most = 1.05 * Math.max(...finite, 1e-12);
   // A speed in its unit as a frequency in its own.
   const factor = inRadians(found["speed-unit"]) / inRadians(found.unit);
-  const revolutions = Math.min(found.revolutions ?? 4, 12);
-  const rays = Array.from({ length: revolutions }, (_, k) => k + 1);
+  const rays = [1, 2, 3, 4];
   const node = tag("div", { class: "campbell" });
   const line = tag("div", { class: "cursor" });
   const colour = (k: number) => styled(`curve${k % 6}`);
@@ -62,7 +74,7 @@ export function diagram(found: Campbell, room: Room, speed: number, choose: (spe
       ctx.fillText(name, x - 3 * devicePixelRatio, y - 4 * devicePixelRatio);
     };
     rays.forEach((k, i) => write(data[1 + i], `${k}Ω`, styled("dim")));
-    frequencies.forEach((_, k) => write(data[1 + rays.length + k], String(k + 1), colour(k)));
+    found.modes.forEach(({ moves }, k) => write(data[1 + rays.length + k], `${k + 1} ${moves}`, colour(k)));
     ctx.restore();
   }
 

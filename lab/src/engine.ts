@@ -51,7 +51,11 @@ export interface Reply {
   refused?: string | null;
   tables?: Entry[];
   results?: unknown;
-  summary?: Summary;
+  summary?: Summary & Record<string, unknown>;
+  /** Of a Campbell diagram: how each mode moves. */
+  moves?: (string | null)[];
+  /** Of a path of equilibria. */
+  columns?: { name: string; unit: string; role: string }[];
   events?: unknown;
   case?: string;
   set?: Record<string, string> | string[] | null;
@@ -180,12 +184,19 @@ export class Lane {
             }
           }
         };
-        worker.postMessage({ request: JSON.stringify(request) });
+        const set = request.set && Object.fromEntries(request.set.map(halves));
+        worker.postMessage({ request: JSON.stringify({ ...request, set }) });
       });
     } finally {
       this.stopping = undefined;
     }
   }
+}
+
+/** The key and the value of a change; one without `=` is left to the engine to refuse. */
+function halves(change: string): [string, string] {
+  const at = change.indexOf("=");
+  return at < 0 ? [change, ""] : [change.slice(0, at), change.slice(at + 1)];
 }
 
 /** Bytes of text in base64. */

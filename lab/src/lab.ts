@@ -4,6 +4,7 @@ import "./lab.css";
 import { Answer, type Pin } from "./answer";
 import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
+import { campbell } from "./diagram";
 import { Editor } from "./editor";
 import { bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
 import { Form, quantity, written } from "./form";
@@ -11,6 +12,7 @@ import * as gallery from "./gallery";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import { Room } from "./room";
 import * as save from "./save";
+import { nice } from "./text";
 import { zip } from "./zip";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -27,6 +29,10 @@ interface State {
   kind: Kind;
   /** Speed of modes. */
   speed?: string;
+  /** Largest speed of a Campbell diagram. */
+  most?: string;
+  /** It has not been read yet. */
+  fresh?: boolean;
   /** The version that the link names. */
   version?: string;
 }
@@ -50,6 +56,7 @@ let diagram: Reply | undefined;
 const computer = new Computer({ checked, answered, said, failed });
 const editor = new Editor(element("text"), (text) => {
   state.text = text;
+  diagram = undefined;
   wait(() => change(), 250);
 });
 const form = new Form(element("form"), (key, value, sliding) => set([`${key.replace(/\[(\d+)\]/g, ".$1")}=${value}`], sliding));
@@ -77,8 +84,16 @@ const asked = (): Asked => ({
   files: state.files,
   kind: state.kind,
   speed: state.speed,
+  range: range(),
   diagram: state.kind === "campbell" ? diagram : undefined,
 });
+
+/** Speeds of the Campbell diagram: from rest to what is chosen, or half as much again as the speed of the case. */
+function range(): string | undefined {
+  const own = quantity(speedOf());
+  const most = quantity(state.most ?? "") ?? (own && own.number > 0 ? { ...own, number: nice(1.5 * own.number) } : undefined);
+  return most && most.number > 0 ? `0 ${most.unit || "rad/s"}:${most.number} ${most.unit || "rad/s"}:31` : undefined;
+}
 
 /** The case or what is asked of it has changed. */
 function change(sliding = false) {
@@ -99,6 +114,15 @@ function checked(reply: Reply, text: string, { text: base, set, sliding }: Asked
   // What has been written since is newer.
   if (state.text !== base) return false;
   if (set) editor.text = state.text = text;
+  // A case without a run has modes.
+  if (state.fresh && state.kind === "run" && reply.missing?.length) {
+    state.kind = "modes";
+    state.speed ??= "0 rad/s";
+    present();
+    change();
+    return false;
+  }
+  state.fresh = false;
   const problems = reply.problems ?? [];
   const missing = state.kind === "run" ? (reply.missing ?? []) : [];
   list([...problems, ...missing]);
@@ -142,6 +166,8 @@ function answered(kind: Kind, reply: Reply, modes?: Reply) {
   try {
     if (kind === "campbell") {
       diagram = reply;
+      const { speeds, "speed-unit": unit } = campbell(reply);
+      element<HTMLInputElement>("most").value ||= `${speeds[speeds.length - 1]} ${unit}`;
       answer.showCampbell(reply, modes, quantity(state.speed ?? "0")?.number ?? 0, remark);
     } else answer.show(kind, reply, pin, remark);
     shown = { kind, reply };
@@ -256,7 +282,7 @@ async function open(asked: Link) {
   diagram = undefined;
   const kind = asked.kind ?? "run";
   if (asked.text !== undefined) {
-    state = { text: asked.text, files: {}, kind, speed: asked.speed, version: asked.version };
+    state = { text: asked.text, files: {}, kind, speed: asked.speed, version: asked.version, fresh: true };
   } else {
     const id = asked.named ?? gallery.first;
     const found = gallery.named(id, asked.run);
@@ -269,7 +295,7 @@ async function open(asked: Link) {
     const changes = [...found.run.set, ...asked.set];
     const text = changes.length > 0 ? await computer.change(found.text, changes, files) : found.text;
     const speed = asked.speed ?? found.run.speed ?? found.item.speed;
-    state = { text, files, item: found.item, run: found.run, kind: own ?? kind, speed, version: asked.version };
+    state = { text, files, item: found.item, run: found.run, kind: own ?? kind, speed, version: asked.version, fresh: true };
   }
   present();
   name("");
@@ -290,6 +316,8 @@ function present() {
   for (const node of all("[data-kind]")) node.setAttribute("aria-selected", String(node.dataset.kind === state.kind));
   element("speeds").hidden = state.kind !== "modes" && state.kind !== "campbell";
   element<HTMLInputElement>("rotation").value = state.speed ?? "";
+  element("mosts").hidden = state.kind !== "campbell";
+  element<HTMLInputElement>("most").value = state.most ?? "";
 }
 
 function base64(content: Uint8Array): string {
@@ -339,6 +367,11 @@ function speedOf(): string {
 
 element<HTMLInputElement>("rotation").addEventListener("change", (event) => {
   state.speed = (event.target as HTMLInputElement).value.trim() || "0 rad/s";
+  change();
+});
+element<HTMLInputElement>("most").addEventListener("change", (event) => {
+  state.most = (event.target as HTMLInputElement).value.trim() || undefined;
+  diagram = undefined;
   change();
 });
 element<HTMLSelectElement>("run").addEventListener("change", (event) => {
@@ -454,7 +487,7 @@ async function take(given: File[]) {
   const files: Record<string, string> = {};
   for (const other of given) if (other !== toml) files[other.name] = base64(new Uint8Array(await other.arrayBuffer()));
   computer.stop();
-  state = { text: await toml.text(), files, kind: "run" };
+  state = { text: await toml.text(), files, kind: "run", fresh: true };
   [diagram, computer.lifted] = [undefined, false];
   present();
   change();

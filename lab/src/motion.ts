@@ -40,7 +40,7 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   const columns = table!.columns.map((column) => ({
     ...column,
     values: numbers(column.values),
-    error: column.error ? numbers(column.error) : undefined,
+    error: banded(column.error),
     other: compared(column.name),
   }));
   if (kept?.shown?.some((name) => columns.some((column) => column.name === name))) {
@@ -56,6 +56,12 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   let path = kept?.path ?? true;
   const forces = space.forces.map(({ values }) => values);
   const strongest = Math.max(0, ...forces.map((values) => largest(values.filter((_, i) => i % 6 > 2))));
+
+  /** Half-widths of a band, of one number until the time until which it is trusted. */
+  function banded(error: string | number | null | undefined): Float64Array | undefined {
+    if (typeof error === "string") return numbers(error);
+    return error ? recorded.map((time) => (time <= (table!.trusted ?? Infinity) ? error : NaN)) : undefined;
+  }
 
   /** A column of the other run, at the times of this one. */
   function compared(name: string): Float64Array | undefined {

@@ -1,14 +1,31 @@
 // The path of equilibria: the load factor over a displacement, with the states where stability is lost.
 import { tag } from "./curves";
-import { numbers } from "./data";
+import { array, type Stored } from "./data";
+import type { Reply } from "./engine";
+import { stated } from "./table";
 import { nice, text } from "./text";
 
-export interface Path {
-  columns: { name: string; unit: string; values: string; shown: boolean }[];
-  "load-factor": string;
-  length: string;
-  unstable?: (number | null)[];
-  critical?: { index: number; name: string }[];
+/** A path with its columns. */
+interface Path {
+  columns: { name: string; unit: string; values: Float64Array }[];
+  factors: Float64Array;
+  unstable: Float64Array;
+  /** Numbers of the points where stability changes, and what they are. */
+  critical: { index: number; name: string }[];
+}
+
+/** The path in a reply: its principal columns. */
+function found({ results, columns, summary }: Reply): Path {
+  const { curves } = results as { curves: Record<string, Stored> };
+  const factors = array(curves, "load_factor")!;
+  const critical = (summary?.critical ?? []) as { "load-factor": number; critical: string }[];
+  const principal = (columns ?? []).filter(({ role }) => role === "primary");
+  return {
+    columns: principal.slice(0, 6).map(({ name, unit }) => ({ name, unit, values: array(curves, name)! })),
+    factors,
+    unstable: array(curves, "unstable") ?? new Float64Array(factors.length),
+    critical: critical.map((state) => ({ index: factors.indexOf(state["load-factor"]), name: state.critical })).filter(({ index }) => index >= 0),
+  };
 }
 
 const [WIDTH, HEIGHT, LEFT, BELOW] = [360, 260, 56, 38];
@@ -28,18 +45,28 @@ function ticks(low: number, high: number): number[] {
   return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => (first + k) * step);
 }
 
-/** One diagram for each column that is shown; unstable parts are dashed. */
-export function paths(found: Path): HTMLElement {
-  const factors = numbers(found["load-factor"]);
-  const shown = found.columns.filter((column) => column.shown).slice(0, 4);
-  const drawn = (shown.length > 0 ? shown : found.columns.slice(0, 2)).map((column) => one(column, factors, found));
-  const critical = (found.critical ?? []).map(({ index, name }) => tag("li", {}, `${name} at load factor ${text(factors[index], 6)}`));
+/** Diagrams of the principal columns, unstable parts dashed, and the values at the end. */
+export function path(reply: Reply): HTMLElement {
+  const of = found(reply);
+  // What does not move says nothing.
+  const moving = of.columns.filter(({ values }) => Math.max(...values) - Math.min(...values) > 0);
+  const drawn = moving.slice(0, 4).map((column) => one(column, of));
+  const listed = of.critical.map(({ index, name }) => tag("li", {}, `${name} at load factor ${text(of.factors[index], 6)}`));
   const note = "The load factor multiplies all loads. Dashed: the equilibrium is not stable.";
-  return tag("div", {}, ...drawn, tag("ul", {}, ...critical), tag("p", { class: "caption" }, note));
+  return tag("div", { class: "paths" }, tag("div", { class: "figures" }, ...drawn), tag("ul", {}, ...listed), tag("p", { class: "caption" }, note), last(reply));
 }
 
-function one({ name, unit, values }: Path["columns"][number], factors: Float64Array, found: Path): HTMLElement {
-  const across = numbers(values);
+/** Values of the last equilibrium with their errors. */
+function last({ summary }: Reply): HTMLElement {
+  const of = summary?.last as { columns: Record<string, number>; error: Record<string, number> | null; stability: string } | undefined;
+  const rows = Object.entries(of?.columns ?? {}).map(([name, value]) =>
+    tag("tr", {}, tag("th", { scope: "row" }, name), tag("td", {}, stated(value, of?.error?.[name]))),
+  );
+  const head = tag("tr", {}, tag("th", { scope: "col" }, "quantity"), tag("th", { scope: "col" }, `last equilibrium${of?.stability ? `, ${of.stability}` : ""}`));
+  return tag("table", { class: "values" }, tag("thead", {}, head), tag("tbody", {}, ...rows));
+}
+
+function one({ name, unit, values: across }: Path["columns"][number], { factors, unstable, critical }: Path): HTMLElement {
   const range = (of: Float64Array): [number, number] => {
     const [low, high] = [Math.min(...of), Math.max(...of)];
     const room = high > low ? 0.05 * (high - low) : Math.abs(high) || 1;
@@ -61,7 +88,7 @@ function one({ name, unit, values }: Path["columns"][number], factors: Float64Ar
   svg.append(shape("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 6, "text-anchor": "middle", class: "name" }, unit ? `${name} [${unit}]` : name));
   svg.append(shape("text", { x: 4, y: 14, class: "name" }, "load factor"));
   // Pieces of one stability each.
-  const stable = (k: number) => !((found.unstable?.[k] ?? 0) > 0);
+  const stable = (k: number) => !(unstable[k] > 0);
   for (let from = 0; from + 1 < factors.length; ) {
     let to = from + 1;
     while (to + 1 < factors.length && stable(to + 1) === stable(from + 1)) to++;
@@ -69,7 +96,7 @@ function one({ name, unit, values }: Path["columns"][number], factors: Float64Ar
     svg.append(shape("polyline", { points: points.join(" "), class: stable(from + 1) ? "stable" : "unstable" }));
     from = to;
   }
-  for (const { index } of found.critical ?? []) {
+  for (const { index } of critical) {
     svg.append(shape("circle", { cx: x(across[index]), cy: y(factors[index]), r: 4, class: "critical" }));
   }
   svg.append(shape("circle", { cx: x(across.at(-1)!), cy: y(factors.at(-1)!), r: 3, class: "last" }));
