@@ -8,6 +8,8 @@ export interface Asked {
   /** Changes of the text that come first. */
   set?: string[];
   kind: Kind;
+  /** Number of the text that it is about: another case or another text of the user has another. */
+  revision: number;
   speed?: string;
   /** Speeds of a Campbell diagram. */
   range?: string;
@@ -36,6 +38,12 @@ const PATIENCE = 15;
 /** An older request that takes longer than this is not waited for [s]. */
 const SHORT = 0.25;
 
+/** A value of TOML without the quotes that a change does not need. */
+function bare(value: string): string {
+  const inner = /^"([^"\\,{}[\]#]+)"$/.exec(value)?.[1] ?? "";
+  return /[A-Za-z]/.test(inner) && !/^\s*([+-]?(inf|nan)|true|false|[\d.eE+-]+)\s*$/.test(inner) ? inner : value;
+}
+
 export class Computer {
   /** Whether a click has lifted the limits. */
   lifted = false;
@@ -61,9 +69,10 @@ export class Computer {
 
   /** The newest that is wanted; what is older is given up. */
   want(asked: Asked) {
-    // What an earlier one changes of the same text is changed too.
-    const earlier = asked.set ? [this.present, this.wanted].filter((one) => one?.text === asked.text) : [];
-    const before = earlier.flatMap((one) => one?.set ?? []);
+    // What earlier ones were to change is changed too.
+    const same = (one?: Asked) => (one?.revision === asked.revision ? one : undefined);
+    const [present, wanted] = [same(this.present), same(this.wanted)];
+    const before = asked.set ? [...((present?.text === asked.text && present?.set) || []), ...(wanted?.set ?? [])] : [];
     const keys = new Set(asked.set?.map((change) => change.split("=")[0]));
     const kept = before.filter((change) => !keys.has(change.split("=")[0]));
     this.wanted = { ...asked, set: asked.set && [...kept, ...asked.set] };
@@ -86,11 +95,10 @@ export class Computer {
   }
 
   /** How a text differs from another, as changes; nothing where that cannot be said. */
-  async difference(text: string, from: string, files: Record<string, string>): Promise<string[] | undefined> {
+  async difference(text: string, from: string, files: Record<string, string>): Promise<string[] | null | undefined> {
     if (text === from) return [];
     const { set } = await this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits(false) });
-    if (!set) return undefined;
-    return Array.isArray(set) ? set : Object.entries(set).map(([key, value]) => `${key}=${value}`);
+    return set && Object.entries(set).map(([key, value]) => `${key}=${bare(value)}`);
   }
 
   /** The files that the program would write. */

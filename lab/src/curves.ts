@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import type { Room } from "./room";
-import { steady, text } from "./text";
+import { steady, text, ticks } from "./text";
 
 export interface Curve {
   name: string;
@@ -37,8 +37,18 @@ export const plain = () => ({
   padding: [6, 18, 0, 0] as uPlot.Padding,
   cursor: { show: false },
   legend: { show: false },
-  scales: { x: { time: false } },
+  scales: { x: { time: false }, y: { range: ranged } },
 });
+
+/** A range about values; what differs by rounding alone is drawn as a straight line. */
+function ranged(_: uPlot, low: number | null, high: number | null): [number, number] {
+  if (low === null || high === null) return [0, 1];
+  const size = Math.max(Math.abs(low), Math.abs(high));
+  if (high - low > 1e-7 * size && size > 1e-290) return uPlot.rangeNum(low, high, 0.1, true) as [number, number];
+  const middle = (low + high) / 2;
+  const about = 1e-3 * Math.abs(middle) || 1;
+  return [middle - about, middle + about];
+}
 
 export const axis = (): uPlot.Axis => ({
   stroke: () => styled("dim"),
@@ -46,6 +56,8 @@ export const axis = (): uPlot.Axis => ({
   ticks: { show: false },
   font: "11px system-ui, sans-serif",
   gap: 4,
+  // uPlot's own never end where steps are smaller than 1e-16.
+  splits: (plot, i, low, high) => ticks(low, high, i === 0 ? Math.max(plot.width / 90, 2) : Math.max(plot.height / 34, 2)),
   values: (_, splits) => splits.map((value) => text(value, 6)),
 });
 

@@ -58,7 +58,7 @@ export interface Reply {
   columns?: { name: string; unit: string; role: string }[];
   events?: unknown;
   case?: string;
-  set?: Record<string, string> | string[] | null;
+  set?: Record<string, string> | null;
   files?: Record<string, string>;
 }
 

@@ -4,6 +4,8 @@ import type { Entry } from "./engine";
 
 /** A slider leads from the value over this factor to its product with it. */
 const REACH = 4;
+/** Time for which a slider that was moved stays where it is [ms]. */
+const HELD = 600;
 /** Steps of a slider. */
 const STEPS = 200;
 
@@ -105,6 +107,7 @@ export class Form {
     return {
       node,
       take: (now) => {
+        if (slider?.held()) return;
         if (document.activeElement !== box) box.value = written(now);
         slider?.take(now);
       },
@@ -133,22 +136,26 @@ export class Form {
       const number = takes === "integer" ? String(Math.round(x)) : String(Number(x.toPrecision(3)));
       return middle.unit ? `${number} ${middle.unit}` : number;
     };
+    let touched = -Infinity;
     const slide = (more: boolean) => {
+      touched = performance.now();
       box.value = write();
       node.setAttribute("aria-valuetext", box.value);
       this.changed(key, box.value, more);
     };
     node.addEventListener("input", () => slide(true));
     node.addEventListener("change", () => slide(false));
+    // An answer that comes while the slider moves is of an earlier place.
+    const held = () => performance.now() - touched < HELD;
     const take = (entry: Entry) => {
       const value = written(entry);
       const now = quantity(value);
-      if (!now || document.activeElement === node) return;
+      if (!now) return;
       const place = step(now.number);
       if (!(place >= 0 && place <= STEPS) || now.unit !== middle.unit) middle = now;
       node.value = String(Math.round(step(now.number)));
       node.setAttribute("aria-valuetext", value);
     };
-    return { node, take };
+    return { node, take, held };
   }
 }

@@ -57,6 +57,7 @@ const computer = new Computer({ checked, answered, said, failed });
 const editor = new Editor(element("text"), (text) => {
   state.text = text;
   diagram = undefined;
+  revision += 1;
   wait(() => change(), 250);
 });
 const form = new Form(element("form"), (key, value, sliding) => set([`${key.replace(/\[(\d+)\]/g, ".$1")}=${value}`], sliding));
@@ -79,10 +80,14 @@ function stale() {
   element("result").setAttribute("aria-busy", "true");
 }
 
+/** Counts the texts of the user and the cases that were opened. */
+let revision = 0;
+
 const asked = (): Asked => ({
   text: state.text,
   files: state.files,
   kind: state.kind,
+  revision,
   speed: state.speed,
   range: range(),
   diagram: state.kind === "campbell" ? diagram : undefined,
@@ -110,9 +115,9 @@ function set(changes: string[], sliding = false) {
 }
 
 /** The case has been read; whether it can be computed. */
-function checked(reply: Reply, text: string, { text: base, set, sliding }: Asked): boolean {
-  // What has been written since is newer.
-  if (state.text !== base) return false;
+function checked(reply: Reply, text: string, { revision: of, set, sliding }: Asked): boolean {
+  // What has been written or opened since is newer.
+  if (of !== revision) return false;
   if (set) editor.text = state.text = text;
   // A case without a run has modes.
   if (state.fresh && state.kind === "run" && reply.missing?.length) {
@@ -304,6 +309,7 @@ async function open(asked: Link) {
 
 /** Shows the state beside the answer. */
 function present() {
+  revision += 1;
   editor.text = state.text;
   const runs = state.item?.runs ?? [];
   element("runs").hidden = runs.length < 2;

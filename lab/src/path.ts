@@ -3,7 +3,7 @@ import { tag } from "./curves";
 import { array, type Stored } from "./data";
 import type { Reply } from "./engine";
 import { stated } from "./table";
-import { nice, text } from "./text";
+import { text, ticks } from "./text";
 
 /** A path with its columns. */
 interface Path {
@@ -36,13 +36,6 @@ function shape(name: string, attributes: Record<string, string | number>, words 
   for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
   made.textContent = words;
   return made;
-}
-
-/** Round numbers within a range. */
-function ticks(low: number, high: number): number[] {
-  const step = nice((high - low) / 3.5);
-  const first = Math.ceil(low / step - 1e-9);
-  return Array.from({ length: Math.floor(high / step + 1e-9) - first + 1 }, (_, k) => (first + k) * step);
 }
 
 /** Diagrams of the principal columns, unstable parts dashed, and the values at the end. */
