@@ -54,6 +54,7 @@ export class Answer {
     if (kind === "run") this.run(reply, kept, other);
     else if (kind === "modes") this.drawn = modes(moving(reply), this.room, kept);
     else if (kind === "statics") this.statics(reply);
+    this.room.footer.hidden = this.drawn === undefined;
     this.remark(reply, remark, other);
   }
 
@@ -66,6 +67,7 @@ export class Answer {
     const unit = of["speed-unit"];
     this.room.stage.hidden = at?.results === undefined;
     if (at?.results) this.drawn = modes(moving(at), this.room, kept);
+    this.room.footer.hidden = this.drawn === undefined;
     const found = diagram(of, this.room, speed, (speed) => this.choose(`${speed} ${unit}`));
     this.room.curves.prepend(found, tag("h2", {}, `Modes at ${text(speed, 3)} ${unit}`));
     this.remark({ ...reply, warnings: [...(reply.warnings ?? []), ...(at?.warnings ?? [])] }, remark);
@@ -98,7 +100,7 @@ export class Answer {
     const trust = reply.summary?.trust;
     const end = reply.summary?.end_time;
     if (trust?.estimated && trust.until !== null && trust.until !== undefined && end !== undefined && trust.until < end) {
-      add("doubt", `Beyond ${steady(trust.until)} s (shaded) the numbers are not to be trusted${trust.column ? `: first that is so of ${trust.column}` : ""}.`);
+      add("doubt", `Errors are known and small until ${steady(trust.until)} s${trust.column ? `, then that of ${trust.column} grows` : ""}. What lies behind is shaded.`);
     } else if (trust && trust.estimated === false && trust.reason) add("dim", `Errors are not known: ${trust.reason}.`);
     const warnings = [...new Set([...(reply.warnings ?? []), ...(reply.summary?.warnings ?? [])])];
     if (warnings.length === 0) return;

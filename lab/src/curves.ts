@@ -57,7 +57,7 @@ export const axis = (): uPlot.Axis => ({
   font: "11px system-ui, sans-serif",
   gap: 4,
   // uPlot's own never end where steps are smaller than 1e-16.
-  splits: (plot, i, low, high) => ticks(low, high, i === 0 ? Math.max(plot.width / 90, 2) : Math.max(plot.height / 34, 2)),
+  splits: (plot, i, low, high) => ticks(low, high, Math.max(i === 0 ? plot.width / 55 : plot.height / 24, 2)),
   values: (_, splits) => splits.map((value) => text(value, 6)),
 });
 

@@ -31,32 +31,35 @@ const HEIGHT = 300;
 export function diagram(found: Campbell, room: Room, speed: number, choose: (speed: number) => void): HTMLElement {
   const { speeds } = found;
   const frequencies = found.modes.map(({ frequency }) => frequency);
-  const finite = frequencies.flatMap((of) => [...of].filter(Number.isFinite));
-  const most = 1.05 * Math.max(...finite, 1e-12);
+  const top = (of: Float64Array) => Math.max(0, ...of.filter(Number.isFinite));
+  const whole = 1.05 * Math.max(...frequencies.map(top), 1e-12);
   // A speed in its unit as a frequency in its own.
   const factor = inRadians(found["speed-unit"]) / inRadians(found.unit);
   const rays = [1, 2, 3, 4];
+  // The lines kΩ and the two lowest modes are seen first, the others by a button.
+  const lower = 1.15 * Math.max(4 * factor * speeds[speeds.length - 1], ...frequencies.slice(0, 2).map(top));
+  let most = lower < 0.8 * whole ? lower : whole;
   const node = tag("div", { class: "campbell" });
   const line = tag("div", { class: "cursor" });
   const colour = (k: number) => styled(`curve${k % 6}`);
   const options: uPlot.Options = {
     ...plain(),
     height: HEIGHT,
-    scales: { x: { time: false }, y: { range: [0, most] } },
+    scales: { x: { time: false }, y: { range: () => [0, most] } },
     axes: [
       { ...axis(), size: 34, label: `speed [${found["speed-unit"]}]`, labelSize: 14, labelFont: "11px system-ui, sans-serif" },
       { ...axis(), size: 58, space: 28, label: `frequency [${found.unit}]`, labelSize: 14, labelFont: "11px system-ui, sans-serif" },
     ],
     series: [
       {},
-      ...rays.map((): uPlot.Series => ({ stroke: () => styled("faint"), width: 1, dash: [4, 4], points: { show: false } })),
-      ...frequencies.map((_, k): uPlot.Series => ({ stroke: () => colour(k), width: 1.75, points: { show: false } })),
+      ...rays.map((): uPlot.Series => ({ stroke: () => styled("faint"), width: 1, pxAlign: 0, dash: [4, 4], points: { show: false } })),
+      ...frequencies.map((_, k): uPlot.Series => ({ stroke: () => colour(k), width: 1.75, pxAlign: 0, points: { show: false } })),
     ],
     hooks: { draw: [(plot) => labels(plot)] },
   };
   const data = [
     Array.from(speeds),
-    ...rays.map((k) => Array.from(speeds, (x) => (k * factor * x <= most ? k * factor * x : null))),
+    ...rays.map((k) => Array.from(speeds, (x) => k * factor * x)),
     ...frequencies.map((of) => Array.from(of, (y) => (Number.isFinite(y) ? y : null))),
   ];
 
@@ -66,18 +69,25 @@ export function diagram(found: Campbell, room: Room, speed: number, choose: (spe
     ctx.save();
     ctx.font = `${11 * devicePixelRatio}px system-ui, sans-serif`;
     ctx.textAlign = "right";
-    const write = (values: (number | null)[], name: string, ink: string) => {
-      const last = values.findLastIndex((y) => y !== null);
+    const write = (values: (number | null)[], name: string, ink: string, share = 1) => {
+      const last = Math.round(share * values.findLastIndex((y) => y !== null && y <= most));
       if (last < 1) return;
       ctx.fillStyle = ink;
       const [x, y] = [plot.valToPos(speeds[last], "x", true), plot.valToPos(values[last]!, "y", true)];
-      ctx.fillText(name, x - 3 * devicePixelRatio, y - 4 * devicePixelRatio);
+      ctx.fillText(name, x - 3 * devicePixelRatio, Math.max(y - 4 * devicePixelRatio, plot.bbox.top + 10 * devicePixelRatio));
     };
-    rays.forEach((k, i) => write(data[1 + i], `${k}Ω`, styled("dim")));
+    rays.forEach((k, i) => write(data[1 + i], `${k}Ω`, styled("dim"), 0.7));
     found.modes.forEach(({ moves }, k) => write(data[1 + rays.length + k], `${k + 1} ${moves}`, colour(k)));
     ctx.restore();
   }
 
+  const every = tag("button", { type: "button", "aria-pressed": "false" }, `All ${frequencies.length} modes`);
+  every.hidden = most === whole;
+  every.addEventListener("click", () => {
+    most = most === whole ? lower : whole;
+    every.setAttribute("aria-pressed", String(most === whole));
+    plot.redraw(true, true);
+  });
   const plot = new uPlot(options, data as uPlot.AlignedData, node);
   room.signal.addEventListener("abort", () => plot.destroy());
   const { over } = plot;
@@ -112,5 +122,5 @@ export function diagram(found: Campbell, room: Room, speed: number, choose: (spe
   sized(node, plot, HEIGHT, room.signal);
   new ResizeObserver(() => mark(speed)).observe(over);
   const about = `Click in the diagram to see the modes at that speed. Dashed lines kΩ: where a curve crosses one, k impulses a revolution excite that mode.`;
-  return tag("div", {}, node, tag("p", { class: "caption" }, about));
+  return tag("div", {}, node, every, tag("p", { class: "caption" }, about));
 }

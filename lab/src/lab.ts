@@ -12,7 +12,6 @@ import * as gallery from "./gallery";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import { Room } from "./room";
 import * as save from "./save";
-import { nice } from "./text";
 import { zip } from "./zip";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -96,7 +95,7 @@ const asked = (): Asked => ({
 /** Speeds of the Campbell diagram: from rest to what is chosen, or half as much again as the speed of the case. */
 function range(): string | undefined {
   const own = quantity(speedOf());
-  const most = quantity(state.most ?? "") ?? (own && own.number > 0 ? { ...own, number: nice(1.5 * own.number) } : undefined);
+  const most = quantity(state.most ?? "") ?? (own && own.number > 0 ? { ...own, number: Number((1.5 * own.number).toPrecision(2)) } : undefined);
   return most && most.number > 0 ? `0 ${most.unit || "rad/s"}:${most.number} ${most.unit || "rad/s"}:31` : undefined;
 }
 
@@ -119,17 +118,8 @@ function checked(reply: Reply, text: string, { revision: of, set, sliding }: Ask
   // What has been written or opened since is newer.
   if (of !== revision) return false;
   if (set) editor.text = state.text = text;
-  // A case without a run has modes.
-  if (state.fresh && state.kind === "run" && reply.missing?.length) {
-    state.kind = "modes";
-    state.speed ??= "0 rad/s";
-    present();
-    change();
-    return false;
-  }
-  state.fresh = false;
   const problems = reply.problems ?? [];
-  const missing = state.kind === "run" ? (reply.missing ?? []) : [];
+  const missing = state.kind === "run" && !state.fresh ? (reply.missing ?? []) : [];
   list([...problems, ...missing]);
   editor.report(problems);
   if (reply.tables) {
@@ -138,6 +128,17 @@ function checked(reply: Reply, text: string, { revision: of, set, sliding }: Ask
     const title = entries.find(({ path }) => path === "title");
     name(title ? written(title) : "");
   }
+  // A case without a run has modes; those of a case are at its own speed, which is known now.
+  const modal = reply.missing?.length ? state.kind === "run" : state.kind === "modes" || state.kind === "campbell";
+  if (state.fresh && modal && problems.length === 0) {
+    if (state.kind === "run") state.kind = "modes";
+    state.speed ??= speedOf();
+    state.fresh = false;
+    present();
+    change();
+    return false;
+  }
+  state.fresh = false;
   if (!sliding) remember();
   return problems.length === 0 && missing.length === 0;
 }
@@ -520,7 +521,11 @@ void computer.ready.then(
   (error) => failed(`The engine could not be started: ${error.message}`),
 );
 void computer.ready.then(follow, () => undefined);
-if (embedded) element<HTMLAnchorElement>("home").addEventListener("click", (event) => {
-  event.preventDefault();
-  window.open(`${here("")}${location.hash}`, "_blank", "noopener");
-});
+if (embedded) {
+  const home = element<HTMLAnchorElement>("home");
+  home.textContent = "Open in the lab";
+  home.addEventListener("click", (event) => {
+    event.preventDefault();
+    window.open(`${here("")}${location.hash}`, "_blank", "noopener");
+  });
+}

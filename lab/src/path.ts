@@ -28,7 +28,7 @@ function found({ results, columns, summary }: Reply): Path {
   };
 }
 
-const [WIDTH, HEIGHT, LEFT, BELOW] = [360, 260, 56, 38];
+const [WIDTH, HEIGHT, LEFT, ABOVE, BELOW] = [360, 270, 56, 22, 38];
 const SVG = "http://www.w3.org/2000/svg";
 
 function shape(name: string, attributes: Record<string, string | number>, words = ""): SVGElement {
@@ -67,11 +67,11 @@ function one({ name, unit, values: across }: Path["columns"][number], { factors,
   };
   const [[x0, x1], [y0, y1]] = [range(across), range(factors)];
   const x = (value: number) => LEFT + ((WIDTH - LEFT - 8) * (value - x0)) / (x1 - x0);
-  const y = (value: number) => HEIGHT - BELOW - ((HEIGHT - BELOW - 8) * (value - y0)) / (y1 - y0);
+  const y = (value: number) => HEIGHT - BELOW - ((HEIGHT - BELOW - ABOVE) * (value - y0)) / (y1 - y0);
   const label = `Load factor over ${name}`;
   const svg = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": label, class: "path" });
   for (const value of ticks(x0, x1)) {
-    svg.append(shape("line", { x1: x(value), x2: x(value), y1: 8, y2: HEIGHT - BELOW, class: "grid" }));
+    svg.append(shape("line", { x1: x(value), x2: x(value), y1: ABOVE, y2: HEIGHT - BELOW, class: "grid" }));
     svg.append(shape("text", { x: x(value), y: HEIGHT - BELOW + 14, "text-anchor": "middle" }, text(value, 3)));
   }
   for (const value of ticks(y0, y1)) {
@@ -79,7 +79,7 @@ function one({ name, unit, values: across }: Path["columns"][number], { factors,
     svg.append(shape("text", { x: LEFT - 5, y: y(value) + 4, "text-anchor": "end" }, text(value, 3)));
   }
   svg.append(shape("text", { x: (LEFT + WIDTH) / 2, y: HEIGHT - 6, "text-anchor": "middle", class: "name" }, unit ? `${name} [${unit}]` : name));
-  svg.append(shape("text", { x: 4, y: 14, class: "name" }, "load factor"));
+  svg.append(shape("text", { x: 4, y: 12, class: "name" }, "load factor"));
   // Pieces of one stability each.
   const stable = (k: number) => !(unstable[k] > 0);
   for (let from = 0; from + 1 < factors.length; ) {

@@ -27,10 +27,12 @@ const PER_SECOND: Record<string, number> = { "rad/s": 1, rpm: Math.PI / 30, "deg
 /** How many rad/s a unit of speed or frequency is. */
 export const inRadians = (unit: string) => PER_SECOND[unit] ?? 1;
 
-/** About so many round numbers within a range. */
-export function ticks(low: number, high: number, count = 3.5): number[] {
+/** At most so many intervals between round numbers within a range. */
+export function ticks(low: number, high: number, count = 5): number[] {
   if (!(high > low)) return [low];
-  const step = nice((high - low) / count);
+  const least = (high - low) / count;
+  // The next of 1, 2, 5 and 10 times a power of ten.
+  const step = [1, 2, 2.5, 5].map((by) => by * nice(least)).find((step) => nice(step) === step && step >= least * (1 - 1e-9)) ?? least;
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.floor(high / step + 1e-9);
   return Array.from({ length: Math.min(last - first + 1, 100) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
