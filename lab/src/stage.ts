@@ -256,11 +256,14 @@ export class Stage {
     signal.addEventListener("abort", () => {
       observer.disconnect();
       this.controls.dispose();
+      const materials: THREE.Material[] = [];
       this.space.traverse((object) => {
         const { geometry, material } = object as THREE.Mesh;
         geometry?.dispose();
-        for (const one of [material ?? []].flat()) one.dispose();
+        materials.push(...[material ?? []].flat());
       });
+      // A shader that no material uses is compiled anew: the next answer uses it first.
+      setTimeout(() => materials.forEach((material) => material.dispose()), 2000);
     });
     this.paint();
     this.turn(scene.planar ? "xy" : "space");
