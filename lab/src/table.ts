@@ -21,6 +21,12 @@ export function stated(value: number | null | undefined, error?: number | null):
   return `${true_(value.toFixed(places))} ± ${short}`;
 }
 
+/** Value and error, between which a line may end. */
+function parted(words: string): (Node | string)[] {
+  const [value, error] = words.split(" ± ");
+  return error === undefined ? [value] : [value, " ", tag("span", { class: "error" }, `± ${error}`)];
+}
+
 /** Least, greatest and last value of the columns of a run, the principal ones first. */
 export function table(summary: Summary, other: Summary | undefined, signal: AbortSignal): HTMLElement {
   const columns = Object.entries(summary.columns ?? {});
@@ -30,8 +36,8 @@ export function table(summary: Summary, other: Summary | undefined, signal: Abor
       .map(([name, column]) => {
         const beside = other?.columns?.[name];
         const cells = (["min", "max", "final"] as const).map((of) => {
-          const cell = tag("td", {}, stated(column[of], column.error?.[of]));
-          if (beside) cell.append(tag("span", { class: "beside" }, stated(beside[of], beside.error?.[of])));
+          const cell = tag("td", {}, ...parted(stated(column[of], column.error?.[of])));
+          if (beside) cell.append(tag("span", { class: "beside" }, ...parted(stated(beside[of], beside.error?.[of]))));
           return cell;
         });
         const unit = column.unit ? tag("span", { class: "unit" }, column.unit) : "";

@@ -73,7 +73,7 @@ try {
     throw new Error(`${what}: ${await run('return document.querySelector("#state").textContent + document.querySelector("#problems").textContent')}`);
   };
   const answered = (what) => until('!document.querySelector("#result").classList.contains("stale") && document.querySelector("#stop").hidden', what);
-  const least = () => run('return Number(document.querySelector(".values td").firstChild.textContent.split("±")[0].replace("−", "-"))');
+  const least = () => run('return Number(document.querySelector(".values td").firstChild.textContent.replace("−", "-"))');
   const done = (name) => {
     passed += 1;
     console.log(`Firefox, ${name}: ok`);

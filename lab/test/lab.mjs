@@ -1,8 +1,8 @@
-// Twelve journeys through the lab in Chromium, as its reader takes them.
+// Journeys through the lab in Chromium, as its reader takes them.
 //
 //     node test/lab.mjs CHROMIUM [SITE/lab] [--pictures DIR] [--only WORD]
 import assert from "node:assert/strict";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { deflateRawSync } from "node:zlib";
 import { answered, launch, opened, serve } from "./open.mjs";
 
@@ -20,7 +20,7 @@ const lab = `${address}/index.html`;
 const values = (page, name) =>
   page.$$eval(".values tr", (rows, name) => {
     const row = rows.find((row) => row.querySelector("th")?.textContent.trim().startsWith(name));
-    return [...row.querySelectorAll("td")].map((cell) => cell.firstChild.textContent);
+    return [...row.querySelectorAll("td")].map((cell) => cell.firstChild.textContent + (cell.querySelector(":scope > .error")?.textContent ?? ""));
   }, name);
 const number = (stated) => Number(stated.split("±")[0].replace("−", "-").replace(/\s/g, ""));
 const fragment = (page) => page.evaluate(() => location.hash);
@@ -57,6 +57,9 @@ const journeys = {
     assert.ok(Math.abs(number(least) + 0.4003) < 1e-3 && least.includes("±"), `the least deflection is ${least}`);
     const paths = requested.map((url) => url.replace(address, ""));
     assert.ok(paths.every((path) => ["/index.html", "/engine.wasm"].includes(path)), `requested: ${paths}`);
+    const nameless = await page.$$eval("button, select, input, summary, a", (all) =>
+      all.filter((e) => !e.closest("[hidden]") && !(e.ariaLabel || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML));
+    assert.deepEqual(nameless, [], "everything that acts has a name");
     const pixels = () => page.locator("#canvas").screenshot();
     const first = await pixels();
     await page.waitForTimeout(700);
@@ -192,6 +195,11 @@ const journeys = {
     assert.ok(await page.locator("#case").isHidden());
     assert.match(await page.textContent("#notes"), /made with Flexion 0\.0\.1/);
   },
+  async "from a folder, without a server"(page) {
+    await page.goto(`file://${resolve(folder, "lab.html")}#case=p1_spin_up_4`);
+    await answered(page);
+    assert.ok(Math.abs(number((await values(page, "tip.deflection"))[0]) + 0.4003) < 1e-3);
+  },
   async "a long link"(page) {
     const source = (lines) => `title = "long"\n${"# a comment that takes room, number ".repeat(1)}${lines}\n[beam]\nlength = "1 m"\n[section]\nkind = "uniform"\nmodulus = "70 GPa"\ndensity = 2700\narea = "1 cm^2"\nsecond-moment = "1e-10 m^4"\n[hub]\nmotion = { kind = "spin-up", speed = "2 rad/s", time = "1 s" }\n[run]\nduration = "1 s"\n`;
     let [seed, noise] = [1, ""];
@@ -214,7 +222,7 @@ for (const [name, journey] of Object.entries(journeys)) {
     await journey(one.page, one);
     assert.deepEqual(one.spoken, [], "the console is silent");
     const outside = one.requested.filter((url) => !url.startsWith(address) || !/\/(index\.html|engine\.wasm|pictures\/[\w.-]+\.svg)?(\?|#|$)/.test(url));
-    assert.deepEqual(outside.filter((url) => url !== "about:blank"), [], "only the page, the engine and pictures are requested");
+    assert.deepEqual(outside.filter((url) => url !== "about:blank" && !/^file:.*\/lab\.html/.test(url)), [], "only the page, the engine and pictures are requested");
     passed += 1;
     console.log(`${name}: ok (${((performance.now() - start) / 1000).toFixed(1)} s)`);
   } catch (error) {
