@@ -27,7 +27,7 @@ const licences = (mode: string): Plugin => ({
   },
 });
 
-/** Only the scripts that are in the page may run: their hashes take the place of `SCRIPTS` in the policy. */
+/** Only the scripts that are in the page may run: their hashes take the place of `'unsafe-inline' SCRIPTS` in the policy. */
 const policy: Plugin = {
   name: "policy",
   writeBundle({ dir }, bundle) {
@@ -36,7 +36,7 @@ const policy: Plugin = {
       const html = readFileSync(file, "utf8");
       const scripts = [...html.matchAll(/<script type="module"[^>]*>([\s\S]*?)<\/script>/g)];
       const hashes = scripts.map(([, text]) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`);
-      writeFileSync(file, html.replace("SCRIPTS", hashes.join(" ")));
+      writeFileSync(file, html.replace("'unsafe-inline' SCRIPTS", hashes.join(" ")));
     }
   },
 };

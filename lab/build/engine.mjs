@@ -1,5 +1,7 @@
-// The engine in Node: `const ask = await engine(FILE)`, then `ask({ do: "run", case: TEXT })`.
+// The engine in Node: `const ask = await engine(FILE)`, then `ask({ do: "run", case: TEXT, set: ["KEY=VALUE"] })`.
 import { readFileSync } from "node:fs";
+
+const changes = (list) => Object.fromEntries(list.map((change) => [change.slice(0, change.indexOf("=")), change.slice(change.indexOf("=") + 1)]));
 
 export async function engine(file) {
   const module = await WebAssembly.compile(readFileSync(file));
@@ -10,7 +12,7 @@ export async function engine(file) {
   let of = made();
   return (request) => {
     try {
-      const bytes = new TextEncoder().encode(JSON.stringify(request));
+      const bytes = new TextEncoder().encode(JSON.stringify({ ...request, set: changes(request.set ?? []) }));
       const at = of.allocate(bytes.length);
       new Uint8Array(of.memory.buffer, at, bytes.length).set(bytes);
       const start = of.call(at, bytes.length);

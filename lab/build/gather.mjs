@@ -7,7 +7,7 @@ import { parse } from "smol-toml";
 
 const root = join(import.meta.dirname, "../..");
 /** Larger files lie beside the page, and are read when their case is opened [bytes]. */
-const LARGE = 20_000;
+const LARGE = 6000;
 /** Still larger files, those of other formats, are left to those who have the repository [bytes]. */
 const LARGEST = 70_000;
 

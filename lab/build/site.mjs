@@ -76,7 +76,7 @@ const chosen = [
 ].flatMap((id) => items.filter((item) => item.id === id));
 const cards = chosen.map(
   (item) =>
-    `<a href="${opened(item.id, "")}"><img src="lab/pictures/${item.id.replace("/", "-")}.svg" alt="" width="240" height="150" loading="lazy"><b>${escaped(item.title)}</b><span>${escaped(item.sentence)}</span></a>`,
+    `<a href="${opened(item.id, "")}"><img src="lab/pictures/${item.id.replace("/", "-")}.svg" alt="" width="240" height="150" loading="lazy"><b>${escaped(item.title)}</b><span>${escaped(item.source ? `${item.source.split(",").slice(0, 2).join(",")} …: ${item.sentence}` : item.sentence)}</span></a>`,
 );
 const ways = [
   ["lab/index.html", "Lab", "Change a beam and see it move; no installation."],
