@@ -52,7 +52,7 @@ export class Answer {
     this.room.stage.hidden = false;
     const other = pin?.kind === kind ? pin : undefined;
     if (kind === "run") this.run(reply, kept, other);
-    else if (kind === "modes") this.drawn = modes(moving(reply), this.room, kept);
+    else if (kind === "modes") this.drawn = this.modes(reply, kept);
     else if (kind === "statics") this.statics(reply);
     this.room.footer.hidden = this.drawn === undefined;
     this.remark(reply, remark, other);
@@ -66,7 +66,7 @@ export class Answer {
     const of = campbell(reply);
     const unit = of["speed-unit"];
     this.room.stage.hidden = at?.results === undefined;
-    if (at?.results) this.drawn = modes(moving(at), this.room, kept);
+    if (at?.results) this.drawn = this.modes(at, kept);
     this.room.footer.hidden = this.drawn === undefined;
     const found = diagram(of, this.room, speed, (speed) => this.choose(`${speed} ${unit}`));
     this.room.curves.prepend(found, tag("h2", {}, `Modes at ${text(speed, 3)} ${unit}`));
@@ -83,6 +83,13 @@ export class Answer {
     if (summary?.columns) this.values.append(table(summary, pin?.reply.summary, this.room.signal));
     const events = listed(reply.events);
     if (events) this.values.append(events);
+  }
+
+  private modes(reply: Reply, kept: Kept | undefined): Drawn {
+    const drawn = modes(moving(reply), this.room, kept);
+    // Warnings stand beside the picture here.
+    this.room.note.textContent = "";
+    return drawn;
   }
 
   private statics(reply: Reply) {

@@ -13,8 +13,11 @@ import { button, choice } from "./tools";
 const PIECES = 3;
 /** Seconds of a period, as it is played. */
 const PERIOD = 2;
-const AXES = ["axial", "chord", "flap"];
-const NAMES = ["axial", "chord", "flap"];
+/** What is drawn along the beam, in panels of one unit each: the largest displacement is 1 m, or in a mode of torsion the largest rotation 1 rad. */
+const PANELS = [
+  { unit: "m", axes: ["axial", "chord", "flap"] },
+  { unit: "rad", axes: ["torsion"] },
+];
 
 export function modes(results: Results, room: Room, kept?: Kept): Drawn {
   const { table, shapes } = results.modes!;
@@ -93,7 +96,8 @@ export function modes(results: Results, room: Room, kept?: Kept): Drawn {
 
   const moves = (vibration: Vibration) =>
     Object.entries(vibration.shares)
-      .filter(([, share]) => Math.abs(share) > 0.01)
+      // The same displacement along the axes of the section is not said twice.
+      .filter(([name, share]) => Math.abs(share) > 0.01 && !name.startsWith("section-"))
       .sort((a, b) => b[1] - a[1])
       .map(([name, share]) => `${name} ${Math.round(100 * share)} %`)
       .join(", ");
@@ -101,16 +105,16 @@ export function modes(results: Results, room: Room, kept?: Kept): Drawn {
   const plots = tag("div", { class: "panels" });
   const get = (name: string) => array(shapes, name) ?? new Float64Array();
   const stations = get("station");
-  const curves = table.modes.map((_, k) => {
-    const lists = AXES.flatMap((axis, i) =>
+  const curves = (k: number, { unit, axes }: (typeof PANELS)[number]) => {
+    const lists = axes.flatMap((axis) =>
       ["real", "imaginary"].map((part, j) => ({
-        name: `${NAMES[i]}${j ? ", a quarter of a period before" : ""}`,
-        unit: "",
+        name: `${axis}${j ? ", a quarter of a period before" : ""}`,
+        unit,
         values: get(`mode${k + 1}.${axis}.${part}`),
       })),
     );
     return lists.filter(({ values }) => largest(values) > 1e-6);
-  });
+  };
   const rows = table.modes.map((vibration, k) => {
     const radio = tag("input", { type: "radio", name: "mode", id: `mode${k}`, "aria-label": `Mode ${k + 1}` });
     radio.addEventListener("change", () => choose(k));
@@ -134,10 +138,10 @@ export function modes(results: Results, room: Room, kept?: Kept): Drawn {
     mode = k;
     rows[k].querySelector("input")!.checked = true;
     rows.forEach((row, i) => row.classList.toggle("chosen", i === k));
-    if (stations.length > 0 && curves[k].length > 0) {
-      const panel = new Panel(room, stations, curves[k], undefined).node;
-      plots.replaceChildren(panel, tag("p", { class: "abscissa" }, "arc length [m]"));
-    }
+    const drawn = PANELS.map((panel) => curves(k, panel)).filter((lists) => stations.length > 0 && lists.length > 0);
+    const panels = drawn.map((lists) => new Panel(room, stations, lists, undefined).node);
+    if (panels.length > 0) panels.push(tag("p", { class: "abscissa" }, "arc length [m]"));
+    plots.replaceChildren(...panels);
     fit();
     if (player) draw(player.time);
   }

@@ -195,6 +195,21 @@ const journeys = {
     assert.ok(await page.locator("#case").isHidden());
     assert.match(await page.textContent("#notes"), /made with Flexion 0\.0\.1/);
   },
+  async "a long run waits for a click, and is stopped"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4&set=run.duration=4000 s&set=output.step=1 ms`);
+    await page.waitForSelector("#compute:not([hidden])");
+    assert.match(await page.textContent("#state"), /takes some \d+ s or more/);
+    assert.ok(await page.evaluate(() => document.querySelector("#result").classList.contains("stale")), "nothing is shown before");
+    await page.click("#compute");
+    await page.waitForSelector("#progress:not([hidden])");
+    await page.click("#stop");
+    await page.waitForSelector("#compute:not([hidden])");
+    assert.match(await page.textContent("#state"), /Stopped/);
+    await page.fill("#key-run\\.duration", "20 s");
+    await page.fill("#key-output\\.step", "20 ms");
+    await page.keyboard.press("Enter");
+    await answered(page);
+  },
   async "from a folder, without a server"(page) {
     await page.goto(`file://${resolve(folder, "lab.html")}#case=p1_spin_up_4`);
     await answered(page);
