@@ -102,7 +102,7 @@ export class Answer {
     const add = (name: string, ...words: (string | Node)[]) => this.notes.append(tag("p", { class: name }, ...words));
     if (remark) add("remark", remark);
     if (reply.status === "failed") add("failed", `The run stopped early: ${reply.message ?? "no reason is given"}`);
-    if (reply.status === "given-up" && reply.results) add("doubt", `This answer is not whole: ${reply.message ?? "it was given up"}.`);
+    if (reply.status === "given-up" && reply.results) add("doubt", `This answer is not whole: ${(reply.message ?? "it was given up").replace(/\.$/, "")}.`);
     if (pin) add("pinned", `Dashed: the pinned answer, ${pin.name}.`);
     const trust = reply.summary?.trust;
     const end = reply.summary?.end_time;

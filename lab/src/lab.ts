@@ -173,7 +173,7 @@ function answered(kind: Kind, reply: Reply, modes?: Reply) {
     if (kind === "campbell") {
       diagram = reply;
       const { speeds, "speed-unit": unit } = campbell(reply);
-      element<HTMLInputElement>("most").value ||= `${speeds[speeds.length - 1]} ${unit}`;
+      element<HTMLInputElement>("most").value ||= (range() ?? `0:${Number(speeds[speeds.length - 1].toPrecision(3))} ${unit}`).split(":")[1];
       answer.showCampbell(reply, modes, quantity(state.speed ?? "0")?.number ?? 0, remark);
     } else answer.show(kind, reply, pin, remark);
     shown = { kind, reply };

@@ -112,7 +112,8 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   function suggested(): number {
     if (space.outlines.length > 0 || !straight) return 1;
     const over = Math.max(...parts.map(({ beam }) => (beam ? largest(beam.displacements) : 0))) / stage.size;
-    return over > 0 && over < SEEN / 4 ? nice(SEEN / over) : 1;
+    // What is rounding is not drawn larger.
+    return over > 1e-9 && over < SEEN / 4 ? nice(SEEN / over) : 1;
   }
 
   /** The axes of the first part, at the centre of its hub. */
@@ -184,6 +185,8 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   room.subtitle.textContent =
     `${results.name === results.title ? "" : `${results.name}, `}${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
   let player: Player | undefined;
+  // Of one time there are values, but no curves.
+  room.curves.hidden = recorded.length < 2;
   const curves = new Columns(room, recorded, columns, table!.trusted ?? undefined, (time) => {
     player?.play(false);
     player?.seek(time);

@@ -63,6 +63,7 @@ export class Room {
     for (const node of [this.options, this.curves]) node.replaceChildren();
     this.measures.replaceChildren(this.scale);
     this.scale.textContent = "";
+    this.curves.hidden = false;
     this.note.textContent = "";
   }
 }
