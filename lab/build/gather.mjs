@@ -22,7 +22,7 @@ const plain = (markdown) =>
 function sentence(markdown) {
   const paragraph = markdown.split(/\n\s*\n/).find((part, i) => i > 0 && !/^[#|`>$-]/.test(part.trim())) ?? "";
   const words = plain(paragraph);
-  const end = words.search(/(?<![A-Z&]|\bal|\bFig|\bEq|\d)\.(?=\s+[A-Z]|$)/);
+  const end = words.search(/(?<![A-Z&]|\bal|\bFig|\bEq|\bInt|\bComput|\bJ|\d)\.(?=\s+[A-Z]|$)/);
   return end > 0 ? words.slice(0, end + 1) : words;
 }
 

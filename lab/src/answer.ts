@@ -54,7 +54,7 @@ export class Answer {
     if (kind === "run") this.run(reply, kept, other);
     else if (kind === "modes") this.drawn = this.modes(reply, kept);
     else if (kind === "statics") this.statics(reply);
-    this.room.footer.hidden = this.drawn === undefined;
+    this.room.footer.hidden = !this.drawn?.seconds;
     this.remark(reply, remark, other);
   }
 

@@ -30,12 +30,15 @@ function parted(words: string): (Node | string)[] {
 /** Least, greatest and last value of the columns of a run, the principal ones first. */
 export function table(summary: Summary, other: Summary | undefined, signal: AbortSignal): HTMLElement {
   const columns = Object.entries(summary.columns ?? {});
+  // Of one time there is one value.
+  const shown: [string, "min" | "max" | "final"][] =
+    summary.end_time === 0 ? [["value", "final"]] : [["least", "min"], ["greatest", "max"], ["at the end", "final"]];
   const rows = (which: (role?: string) => boolean) =>
     columns
       .filter(([, column]) => which(column.role))
       .map(([name, column]) => {
         const beside = other?.columns?.[name];
-        const cells = (["min", "max", "final"] as const).map((of) => {
+        const cells = shown.map(([, of]) => {
           const cell = tag("td", {}, ...parted(stated(column[of], column.error?.[of])));
           if (beside) cell.append(tag("span", { class: "beside" }, ...parted(stated(beside[of], beside.error?.[of]))));
           return cell;
@@ -43,7 +46,7 @@ export function table(summary: Summary, other: Summary | undefined, signal: Abor
         const unit = column.unit ? tag("span", { class: "unit" }, column.unit) : "";
         return tag("tr", {}, tag("th", { scope: "row" }, name, " ", unit), ...cells);
       });
-  const head = ["quantity", "least", "greatest", "at the end"].map((name) => tag("th", { scope: "col" }, name));
+  const head = ["quantity", ...shown.map(([name]) => name)].map((name) => tag("th", { scope: "col" }, name));
   const body = tag("tbody", {}, ...rows((role) => role === "primary"));
   const whole = tag("table", { class: "values" }, tag("thead", {}, tag("tr", {}, ...head)), body);
   const further = rows((role) => role !== "primary");
