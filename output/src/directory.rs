@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::OutputError;
@@ -285,6 +286,9 @@ fn probe(path: &Path) -> io::Result<()> {
     written.and(staging::clear(path))
 }
 
+/// Number of files that this process has begun to write by [`write_file`].
+static WRITTEN: AtomicU64 = AtomicU64::new(0);
+
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
@@ -299,7 +303,10 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let attempt = || {
         let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        let hidden = path.with_file_name(format!(".{}.flexion-new", name.to_string_lossy()));
+        // Another process, or another thread, may write the same file at the same time.
+        let (process, number) = (std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed));
+        let hidden =
+            path.with_file_name(format!(".{}.{process}-{number}.flexion-new", name.to_string_lossy()));
         let written = write_whole(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
         if written.is_err() {
             let _ = fs::remove_file(&hidden);
@@ -528,5 +535,25 @@ mod tests {
             assert_eq!(path.exists(), was_there);
             assert!(!was_there || fs::read_dir(&path).unwrap().next().is_none());
         }
+    }
+
+    /// Several that write one file at the same time write it whole, each under a name of its own.
+    #[test]
+    fn a_file_that_is_written_by_many_is_that_of_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("report.html");
+        std::thread::scope(|scope| {
+            for letter in b'a'..b'i' {
+                let file = &file;
+                scope.spawn(move || {
+                    for _ in 0..8 {
+                        write_file(file, &vec![letter; 100_000]).unwrap();
+                    }
+                });
+            }
+        });
+        let whole = fs::read(&file).unwrap();
+        assert!(whole.len() == 100_000 && whole.iter().all(|letter| *letter == whole[0]));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

@@ -1,6 +1,6 @@
 //! A page of HTML that plays the motion or the modes of vibration of a folder of results.
 //!
-//! The page is built from the sources in `viewer/`, and needs no server and no network: the results stand in it as JSON, with
+//! The page is built from the sources in `lab/`, and needs no server and no network: the results stand in it as JSON, with
 //! arrays in base64.
 
 use std::fs::File;

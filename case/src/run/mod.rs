@@ -245,8 +245,9 @@ impl Reading {
                             rotation.and_then(|rotation| rotation.turning(space.multibody.model(), state));
                         let (turning, unsteady) = turning.map_err(|why| self.problem("initial.kind", why))?;
                         warning = unsteady;
-                        state.q.copy_from_slice(&turning.q);
-                        state.v.copy_from_slice(&turning.v);
+                        // States of laws stand behind those of the model.
+                        state.q[..turning.q.len()].copy_from_slice(&turning.q);
+                        state.v[..turning.v.len()].copy_from_slice(&turning.v);
                     }
                     None => warning = self.turning(system, state, watch)?,
                 }
@@ -306,6 +307,8 @@ impl Reading {
             Ok(None) if self.case.hub_beam().is_some_and(|beam| beam.load_changes(revolution)) => {
                 Err(NoPeriodicMotion::Changing)
             }
+            // Laws have states.
+            Ok(None) if mean.size() != system.size() => Err(NoPeriodicMotion::Changing),
             // Contacts may be closed.
             Ok(None) if !self.case.has_contacts() => {
                 mean.hold(true);
@@ -320,8 +323,8 @@ impl Reading {
         if periodic.is_err() {
             return Ok(self.equilibrium(system, state, watch)?.or(Some(said)));
         }
-        state.q.copy_from_slice(&at.q);
-        state.v.copy_from_slice(&at.v);
+        state.q[..at.q.len()].copy_from_slice(&at.q);
+        state.v[..at.v.len()].copy_from_slice(&at.v);
         Ok(Some(said))
     }
 
