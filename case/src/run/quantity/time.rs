@@ -45,14 +45,16 @@ impl Compared<'_> {
             slopes.fold(0.0_f64, |most, (k, off)| most.max(((off[1] - off[0]) / (t[k + 1] - t[k])).abs()));
         let least = y[nearest];
         let spacing = (first..last).map(|k| t[k + 1] - t[k]).fold(0.0, f64::max);
-        let near = |k: usize| y[k] - least <= 2.0 * error;
+        let narrow = vertex(&t, &y, nearest, 1);
+        // A record is up to ÿh²/8 above its vertex.
+        let above = narrow.map_or(0.0, |(_, curvature)| curvature * spacing * spacing / 8.0);
+        let near = |k: usize| y[k] - least <= 2.0 * error + above;
         // The valley of the extreme, and the others that may be deeper.
         let left = (0..=nearest).rev().take_while(|k| near(*k)).last()?;
         let right = (nearest..t.len()).take_while(|k| near(*k)).last()?;
         let reach = (time - t[left]).max(t[right] - time) + spacing;
         let elsewhere = (0..t.len()).filter(|k| !(left..=right).contains(k) && near(*k));
-        let elsewhere = elsewhere.map(|k| (t[k] - time).abs()).fold(0.0, f64::max);
-        let narrow = vertex(&t, &y, nearest, 1);
+        let elsewhere = elsewhere.map(|k| (t[k] - time).abs() + spacing).fold(0.0, f64::max);
         let moved = narrow.map_or(f64::INFINITY, |(_, curvature)| slope / curvature).min(reach);
         let of_records = match (narrow, vertex(&t, &y, nearest, 2)) {
             (Some((narrow, _)), Some((wide, _))) => (narrow - wide).abs() + (narrow - time).abs(),
