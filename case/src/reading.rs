@@ -17,7 +17,7 @@ use super::short;
 use super::sources::{Contents, Files, Folder, Sources};
 use super::space::Space;
 use super::tree::{self, Node, Raw};
-use super::values::{Filled, Value, Values};
+use super::values::{Value, Values};
 use flexion::command::Commanded;
 use flexion::integrator::Integrator;
 use flexion::system::{Jump, State, System};
@@ -43,6 +43,7 @@ pub struct Live {
 }
 
 /// A value of a sweep, laid over a case.
+#[cfg(feature = "sweep")]
 #[derive(Clone, Debug)]
 pub(super) enum Laid {
     /// A number.
@@ -227,6 +228,7 @@ impl Reading {
     ///
     /// # Errors
     /// Everything that is wrong with the changes.
+    #[cfg(feature = "sweep")]
     pub(super) fn laid(&self, values: &[Laid]) -> Result<Reading, Problems> {
         self.after(values, |root, value, problems| match value {
             Laid::Typed(change) => tree::change(root, change, problems),
@@ -240,7 +242,8 @@ impl Reading {
     }
 
     /// The key of this name that a change, a source by its number, has set.
-    pub(super) fn set_by(&self, source: usize, name: &str) -> Option<&Filled> {
+    #[cfg(feature = "sweep")]
+    pub(super) fn set_by(&self, source: usize, name: &str) -> Option<&super::values::Filled> {
         self.written().set_by(source, name)
     }
 

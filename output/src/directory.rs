@@ -1,12 +1,17 @@
 //! The directory of results: all files appear together, when they are whole.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use super::OutputError;
+#[cfg(feature = "archives")]
+use super::archive;
+use super::arrays::Arrays;
 use super::artifact::Artifact;
 use super::staging::{self, NEW};
 use super::written::{LIST, Written};
@@ -35,7 +40,14 @@ pub struct Directory {
     made: bool,
     /// Holds the lock.
     _lock: Option<File>,
+    /// The files, of a directory in memory.
+    memory: Option<Mutex<BTreeMap<String, Vec<u8>>>>,
 }
+
+/// Where the bytes of a file go.
+pub trait Sink: io::Write + io::Seek {}
+
+impl<W: io::Write + io::Seek> Sink for W {}
 
 impl Directory {
     /// [`Directory::create_for`] a run that reads no files.
@@ -79,7 +91,19 @@ impl Directory {
         refuse_foreign(&path, &taken)?;
         staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
         let replaces = own.iter().any(|artifact| path.join(&*artifact.file_name()).exists());
-        Ok(Directory { path, own, replaces, made, _lock: lock })
+        Ok(Directory { path, own, replaces, made, _lock: lock, memory: None })
+    }
+
+    /// A directory of one kind of results that is in memory, for where there are no files.
+    pub fn in_memory(own: &'static [Artifact]) -> Directory {
+        let memory = Some(Mutex::default());
+        Directory { path: PathBuf::new(), own, replaces: false, made: false, _lock: None, memory }
+    }
+
+    /// The files of a directory in memory, by their names.
+    pub fn into_files(self) -> BTreeMap<String, Vec<u8>> {
+        let files = self.memory.map(|files| files.into_inner().unwrap_or_else(PoisonError::into_inner));
+        files.unwrap_or_default()
     }
 
     /// Where it is, as it was asked for.
@@ -100,8 +124,15 @@ impl Directory {
     pub fn write(
         &self,
         artifact: Artifact,
-        fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+        fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
     ) -> Result<(), OutputError> {
+        if let Some(files) = &self.memory {
+            let mut bytes = io::Cursor::new(Vec::new());
+            fill(&mut bytes).map_err(OutputError::io("write", &self.file(artifact)))?;
+            let mut files = files.lock().unwrap_or_else(PoisonError::into_inner);
+            files.insert(artifact.file_name().into_owned(), bytes.into_inner());
+            return Ok(());
+        }
         let staged = self.path.join(NEW).join(&*artifact.file_name());
         let attempt = || {
             // A directory that has gone is not made again: its owner removed it.
@@ -121,12 +152,45 @@ impl Directory {
         })
     }
 
+    /// Writes an archive of arrays, as [`Directory::write`] does; nothing in a build without archives.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] with the system's reason.
+    #[cfg(feature = "archives")]
+    pub fn write_arrays(
+        &self,
+        artifact: Artifact,
+        put: impl FnOnce(&mut dyn Arrays) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        self.write(artifact, |f| {
+            let mut archive = archive::archive(f);
+            put(&mut archive)?;
+            archive::finish(archive)
+        })
+    }
+
+    /// Writes nothing: this build has no archives.
+    ///
+    /// # Errors
+    /// None.
+    #[cfg(not(feature = "archives"))]
+    pub fn write_arrays(
+        &self,
+        _: Artifact,
+        _: impl FnOnce(&mut dyn Arrays) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        Ok(())
+    }
+
     /// Brings all that was written under its names, in place of former results.
     ///
     /// # Errors
     /// [`OutputError::Io`] with the system's reason; the next run into this directory finishes the work.
     /// [`OutputError::Foreign`] where a file has come meanwhile that has the name of a result.
     pub fn publish(&self) -> Result<(), OutputError> {
+        if self.memory.is_some() {
+            return Ok(());
+        }
         self.refuse_what_came()?;
         let published = staging::publish(&self.path, &self.closing());
         published.map_err(OutputError::io("move the results into", &self.path))
