@@ -1,6 +1,8 @@
 // The lab: a case as form and text, and its answer, which follows it.
 import "./style.css";
 import "./lab.css";
+import "./answer.css";
+import "./screens.css";
 import { Answer, type Pin } from "./answer";
 import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
