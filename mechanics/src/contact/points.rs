@@ -63,10 +63,10 @@ pub trait Points {
         None
     }
 
-    /// Position of point `k` and radius of the ball about it \[m\], as far as they say whether it may touch.
-    fn position(&mut self, k: usize, s: &State) -> (Vec3, f64) {
-        let PointMotion { position, radius, .. } = self.motion(k, s);
-        (position, radius)
+    /// Position of point `k` and radius of the ball about it \[m\], where they cost less than its [motion](Points::motion): they say
+    /// whether it may touch.
+    fn position(&mut self, _k: usize, _s: &State) -> Option<(Vec3, f64)> {
+        None
     }
 
     /// Motion of point `k`.

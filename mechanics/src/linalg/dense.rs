@@ -16,6 +16,21 @@ impl<T: Scalar> Dense<T> {
         Dense { n, data: vec![T::ZERO; n * n], pivots: vec![0; n] }
     }
 
+    /// Takes the content of another.
+    pub(super) fn copy_from(&mut self, other: &Dense<T>) {
+        self.n = other.n;
+        self.data.clone_from(&other.data);
+        self.pivots.clone_from(&other.pivots);
+    }
+
+    /// Makes it the zero matrix of another order.
+    pub(super) fn resize(&mut self, n: usize) {
+        self.n = n;
+        self.data.clear();
+        self.data.resize(n * n, T::ZERO);
+        self.pivots.resize(n, 0);
+    }
+
     /// Order of the matrix.
     pub fn order(&self) -> usize {
         self.n

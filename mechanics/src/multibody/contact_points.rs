@@ -53,13 +53,13 @@ impl Points for Multibody {
         self.struck(k).filter(|_| point.is_sought()).map(|(beam, _)| point.station(beam))
     }
 
-    fn position(&mut self, k: usize, s: &State) -> (Vec3, f64) {
+    fn position(&mut self, k: usize, s: &State) -> Option<(Vec3, f64)> {
         let radius = self.constants.model.points[k].radius;
         let position = match self.struck(k) {
             Some((beam, [q, _])) => self.on_axis[k].position(beam, &s.q[q..]),
             None => self.poses[self.contact(k)].position,
         };
-        (position, radius)
+        Some((position, radius))
     }
 
     fn motion(&mut self, k: usize, s: &State) -> PointMotion {

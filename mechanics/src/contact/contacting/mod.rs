@@ -128,12 +128,10 @@ impl Placed {
 
     /// The same, if it may act on the model: a row always, a force where the point touches.
     fn acting(&self, model: &mut impl Points, s: &State) -> Option<Proximity> {
-        match self.contact.law {
-            Law::Constraint { .. } => Some(self.proximity(model, s)),
-            Law::Force(_) => {
-                Proximity::touching(model, self.contact.point, self.contact.obstacle.as_ref(), s)
-            }
-        }
+        let Contact { point, obstacle, law, .. } = &self.contact;
+        let away =
+            matches!(law, Law::Force(_)) && Proximity::is_away(model, *point, obstacle.as_ref(), s);
+        (!away).then(|| self.proximity(model, s))
     }
 
     /// The forces at a state.
@@ -340,6 +338,12 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             stiff && !self.inner.is_local(placed.contact.point)
         });
         if full { Structure::dense(structure.order()) } else { structure }
+    }
+
+    fn contacts_are_local(&self) -> bool {
+        let rigid = |placed: &&Placed| matches!(placed.contact.law, Law::Constraint { .. });
+        self.rows == self.inner.rows().iter().filter(|set| **set == Set::Free).count()
+            && self.contacts.iter().filter(rigid).all(|placed| self.inner.is_local(placed.contact.point))
     }
 
     fn scales(&self) -> &[f64] {

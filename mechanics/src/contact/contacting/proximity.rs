@@ -25,34 +25,25 @@ impl Proximity {
     /// Of point `k` of a model before an obstacle.
     pub fn new(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> Proximity {
         model.approach(k, s, obstacle);
-        let (position, _) = model.position(k, s);
-        let surface = obstacle.surface(position, s.time());
-        Proximity::of(model, k, s, surface)
-    }
-
-    /// The same of a point that touches; `None` where it does not.
-    pub fn touching(
-        model: &mut impl Points,
-        k: usize,
-        obstacle: &dyn Obstacle,
-        s: &State,
-    ) -> Option<Proximity> {
-        model.approach(k, s, obstacle);
-        let (position, radius) = model.position(k, s);
-        let surface = obstacle.surface(position, s.time());
-        // NaN is not away.
-        if surface.gap > radius { None } else { Some(Proximity::of(model, k, s, surface)) }
-    }
-
-    /// Of point `k`, which has been placed, before a surface.
-    fn of(model: &mut impl Points, k: usize, s: &State, mut surface: Surface) -> Proximity {
         let (motion, station) = (model.motion(k, s), model.station(k));
+        let mut surface = obstacle.surface(motion.position, s.time());
         surface.gap -= motion.radius;
         let velocity = motion.velocity - surface.velocity;
         let swept = motion.spin.cross(surface.normal);
         let touching = velocity - motion.radius * swept;
         let (rate, sliding) = (surface.normal.dot(velocity), surface.tangents.map(|t| t.dot(touching)));
         Proximity { motion, surface, velocity, station, rate, touching, sliding }
+    }
+
+    /// Whether point `k` is known not to touch, at less cost than that of its motion.
+    pub fn is_away(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> bool {
+        if model.station(k).is_some() {
+            // It would have to be found for that.
+            return false;
+        }
+        model.approach(k, s, obstacle);
+        let placed = model.position(k, s);
+        placed.is_some_and(|(position, radius)| obstacle.surface(position, s.time()).gap > radius)
     }
 
     /// g̈
