@@ -210,6 +210,10 @@ impl Dynamics for Commanded {
         if self.feeds_back() { Structure::dense(structure.order()) } else { structure }
     }
 
+    fn contacts_are_local(&self) -> bool {
+        self.inner.contacts_are_local()
+    }
+
     fn scales(&self) -> &[f64] {
         self.inner.scales()
     }

@@ -19,7 +19,7 @@ mod obstacle;
 mod points;
 
 pub use augmented::Augmented;
-pub use cone::{RowLaw, Unresolved, solve};
+pub use cone::{FEW, RowLaw, Unresolved, solve};
 pub use contacting::{Contact, Contacting, Law};
 pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};

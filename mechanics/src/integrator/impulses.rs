@@ -11,12 +11,9 @@
 //! that they make is found with A itself ([`Augmented`]).
 
 use super::rows::Rows;
-use crate::contact::{Augmented, RowLaw, Unresolved, solve};
+use crate::contact::{Augmented, FEW, RowLaw, Unresolved, solve};
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Set};
-
-/// Rows up to which W is formed.
-const FEW: usize = 12;
 
 /// The rows that take part in a step, and memory for their problem.
 #[derive(Debug, Default)]

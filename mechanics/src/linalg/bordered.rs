@@ -247,9 +247,7 @@ impl<T: Scalar> Bordered<T> {
 
     /// Replaces the content by Σ wₖ Aₖ of real matrices of the same structure.
     pub(super) fn combine(&mut self, terms: [&Bordered<f64>; 3], weights: [T; 3]) {
-        let sum = |x: [f64; 3]| {
-            weights[0].times(x[0]) + (weights[1].times(x[1]) + weights[2].times(x[2]))
-        };
+        let sum = |x: [f64; 3]| weights[0].times(x[0]) + (weights[1].times(x[1]) + weights[2].times(x[2]));
         self.clear();
         self.band.combine(terms.map(|a| &a.band), weights);
         let n = self.band.order();

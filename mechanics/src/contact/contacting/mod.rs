@@ -129,8 +129,7 @@ impl Placed {
     /// The same, if it may act on the model: a row always, a force where the point touches.
     fn acting(&self, model: &mut impl Points, s: &State) -> Option<Proximity> {
         let Contact { point, obstacle, law, .. } = &self.contact;
-        let away =
-            matches!(law, Law::Force(_)) && Proximity::is_away(model, *point, obstacle.as_ref(), s);
+        let away = matches!(law, Law::Force(_)) && Proximity::is_away(model, *point, obstacle.as_ref(), s);
         (!away).then(|| self.proximity(model, s))
     }
 
