@@ -1,5 +1,7 @@
 //! Writes by how much each property of a blade changes its frequencies, as Markdown: what a model that leaves it out has, in per cent.
 //! `cargo run --release --example blade_terms > docs/src/blade_terms.md`; draws `docs/src/blade_terms.png`, too.
+//!
+//! A program, since no case has a blade without what its deck says: its models are made here.
 
 #![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)]
 

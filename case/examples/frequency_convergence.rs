@@ -2,6 +2,8 @@
 //! figure of `docs/src/theory/frequency_convergence.md` and prints its table.
 //!
 //! `cargo run --release --example frequency_convergence [FOLDER]`
+//!
+//! A program, since it compares with a power series, which no case has; `case/tests/frequency_orders.rs` holds the orders by the same functions.
 
 #![allow(clippy::print_stdout)] // what it is for
 

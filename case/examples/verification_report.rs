@@ -1,3 +1,5 @@
+//! The one way in which `docs/src/verification.md` and what tests are held to are written.
+//!
 //! Runs every case of `verification` and writes what was measured: the page `docs/src/verification.md`, and
 //! `verification/measured.toml`, to which later differences are held: `cargo run --release --example verification_report`.
 
@@ -20,8 +22,7 @@ and where that comes from. `cargo test --release --test verification` runs them 
 This page is written by `cargo run --release --example verification_report`. *Off* is the largest difference from the
 reference: over the largest size of the column for a history (*/ its peak*), in the unit of the column for a figure.
 Where it is less than 5 % of what is allowed, it is held to five times what was measured (`verification/measured.toml`).
-The tables of P1 and P3 are on [a page of their own](verification_tables.md), and their transients in every basis and coupling
-on [another](basis_coupling_tables.md).
+What papers claim is judged by `flexion reproduce` ([page](tasks/paper.md)).
 
 | case | what is compared | off | allowed |
 |---|---|---|---|";

@@ -1,6 +1,6 @@
 //! Laws of a program: torques of motors and factors of loads that its functions give. No file holds them.
 
-use flexion::command::{Command, CommandFault, Input, Signal, Timing};
+use flexion::command::{Command, CommandFault, Input, LawState, Signal, Timing};
 use flexion_results::nearest;
 use std::sync::Arc;
 
@@ -22,6 +22,8 @@ pub struct Law {
     pub load: Option<String>,
     /// Columns that it reads: positions, velocities and what follows from them.
     pub reads: Vec<String>,
+    /// States that are integrated with the motion.
+    pub states: Vec<LawState>,
     /// When it is asked.
     pub timing: Timing,
     /// What makes it.
@@ -50,9 +52,9 @@ impl Signals {
     /// The laws of a run.
     pub(crate) fn inputs(&self) -> Result<Vec<Input>, String> {
         let input = |(law, signal): &(Law, Arc<Signal>)| {
-            let (name, reads, timing) = (law.name.clone(), law.reads.clone(), law.timing.clone());
+            let Law { name, reads, states, timing, .. } = law.clone();
             let command = law.start.start().map_err(|why| format!("the law `{name}` {why}"))?;
-            Ok(Input { unit: law.unit(), name, reads, timing, command, signal: Arc::clone(signal) })
+            Ok(Input { unit: law.unit(), name, reads, states, timing, command, signal: Arc::clone(signal) })
         };
         self.0.iter().map(input).collect()
     }

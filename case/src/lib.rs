@@ -23,9 +23,11 @@ mod case;
 pub mod change;
 pub mod declaration;
 mod driven;
+mod edit;
 mod fault;
 mod features;
 mod files;
+mod given;
 mod hub_beam;
 pub mod keys;
 mod kind;
@@ -47,6 +49,7 @@ mod space;
 mod statics;
 mod stations;
 mod suggestion;
+#[cfg(feature = "sweep")]
 pub mod sweep;
 mod template;
 mod tree;
@@ -59,6 +62,7 @@ pub use case::{Case, Output, Subject};
 pub use fault::{Fault, Faults, Made};
 pub use files::deck;
 pub use flexion::analysis::error::Effort;
+pub use given::Given;
 pub use hub_beam::HubBeam;
 pub use kind::{Choice, Context, Kind, Table};
 pub use laws::{Law, Start};
@@ -66,9 +70,10 @@ pub use problem::{Place, Problem, Problems, Source};
 pub use reading::{Live, Reading, parse, parse_with, read};
 pub use run::advise::{Advice, AdviseError, Tried, Trusted, Untried};
 pub use run::calculation::{Calculation, Request, Stage};
+pub use run::clock::use_clock;
 pub use run::quantity::{Collected, Quantity};
 pub use run::refine::{RefineError, Refinement, Target};
-pub use run::{Prepared, Run};
+pub use run::{Prepared, Run, Shown};
 pub use schema::schema;
 pub use sources::{Contents, Files, Folder, Sources};
 pub use space::{Link, Space};
@@ -76,8 +81,8 @@ pub use statics::{StaticsError, StaticsRequest};
 pub use template::{TEMPLATES, Template};
 pub use values::Values;
 pub use vibration::{
-    Diagram, DiagramRequest, FoundModes, Linear, LinearRequest, ModesRequest, PlaceStiffness, VibrationError,
-    campbell, moves,
+    Diagram, DiagramRequest, FoundModes, Linear, LinearRequest, ModesRequest, PlaceStiffness, Speed, Speeds,
+    VibrationError, Wanted, campbell, moves,
 };
 
 /// Every place in a case where a kind is chosen, with the kinds.

@@ -92,6 +92,8 @@ pub struct Problems {
     pub sources: Vec<Source>,
     /// The problems, at least one.
     pub list: Vec<Problem>,
+    /// Whether they are of how it is written: no TOML, a key or kind that is none, a wrong type or unit. Else what it says is refused.
+    pub misread: bool,
 }
 
 impl Problems {

@@ -17,7 +17,7 @@ use super::short;
 use super::sources::{Contents, Files, Folder, Sources};
 use super::space::Space;
 use super::tree::{self, Node, Raw};
-use super::values::{Filled, Value, Values};
+use super::values::{Value, Values};
 use flexion::command::Commanded;
 use flexion::integrator::Integrator;
 use flexion::system::{Jump, State, System};
@@ -43,6 +43,7 @@ pub struct Live {
 }
 
 /// A value of a sweep, laid over a case.
+#[cfg(feature = "sweep")]
 #[derive(Clone, Debug)]
 pub(super) enum Laid {
     /// A number.
@@ -203,7 +204,7 @@ impl Reading {
         let loads: Vec<(String, bool)> =
             laws.iter().filter_map(|law| Some((law.load.clone()?, true))).collect();
         let loaded = self.without_laws()?.with_loads(&loads)?;
-        let problems = Problems { sources: loaded.sources, list: Vec::new() };
+        let problems = Problems { sources: loaded.sources, ..Problems::default() };
         interpreted(loaded.root, &self.file, &self.files, problems, &laws.into())
     }
 
@@ -214,7 +215,7 @@ impl Reading {
     pub fn without_laws(&self) -> Result<Reading, Problems> {
         let mut root = self.root.clone();
         tree::pop_loads(&mut root, self.laws.iter().filter(|law| law.load.is_some()).count());
-        let problems = Problems { sources: self.sources.clone(), list: Vec::new() };
+        let problems = Problems { sources: self.sources.clone(), ..Problems::default() };
         interpreted(root, &self.file, &self.files, problems, &Arc::default())
     }
 
@@ -227,6 +228,7 @@ impl Reading {
     ///
     /// # Errors
     /// Everything that is wrong with the changes.
+    #[cfg(feature = "sweep")]
     pub(super) fn laid(&self, values: &[Laid]) -> Result<Reading, Problems> {
         self.after(values, |root, value, problems| match value {
             Laid::Typed(change) => tree::change(root, change, problems),
@@ -240,7 +242,8 @@ impl Reading {
     }
 
     /// The key of this name that a change, a source by its number, has set.
-    pub(super) fn set_by(&self, source: usize, name: &str) -> Option<&Filled> {
+    #[cfg(feature = "sweep")]
+    pub(super) fn set_by(&self, source: usize, name: &str) -> Option<&super::values::Filled> {
         self.written().set_by(source, name)
     }
 
@@ -249,7 +252,7 @@ impl Reading {
         changes: &[C],
         make: impl Fn(&mut Node, &C, &mut Problems),
     ) -> Result<Reading, Problems> {
-        let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
+        let mut problems = Problems { sources: self.sources.clone(), ..Problems::default() };
         let mut root = self.root.clone();
         changes.iter().for_each(|change| make(&mut root, change, &mut problems));
         interpreted(root, &self.file, &self.files, problems, &self.laws)
@@ -347,11 +350,15 @@ impl Reading {
                 .map(move |key| reader::missing(key, &format!("{name}.{}", key.name), values.place.clone()))
         });
         let list: Vec<Problem> = missing.collect();
-        if list.is_empty() { Ok(()) } else { Err(Problems { sources: self.sources.clone(), list }) }
+        if list.is_empty() {
+            Ok(())
+        } else {
+            Err(Problems { sources: self.sources.clone(), list, misread: false })
+        }
     }
 
     pub(super) fn problems(&self, faults: Faults) -> Problems {
-        let mut problems = Problems { sources: self.sources.clone(), list: Vec::new() };
+        let mut problems = Problems { sources: self.sources.clone(), ..Problems::default() };
         let renamed = self.short.as_ref().map_or(&[][..], |(_, renamed)| renamed);
         report(faults, &self.values, renamed, &mut problems);
         problems
@@ -392,7 +399,7 @@ pub fn read(path: &Path, overrides: &[String]) -> Result<Reading, Problems> {
             let source = Source { name: file.display().to_string(), text: String::new() };
             let mut problem = Problem::new("", None, message);
             problem.help.extend(help);
-            Err(Problems { sources: vec![source], list: vec![problem] })
+            Err(Problems { sources: vec![source], list: vec![problem], misread: true })
         }
     }
 }
@@ -429,9 +436,11 @@ fn interpreted(
     mut problems: Problems,
     laws: &Arc<[Law]>,
 ) -> Result<Reading, Problems> {
+    problems.misread = !problems.list.is_empty();
     // What a broken file seems to say is not worth reporting: its syntax comes first.
     if let (true, Raw::Table(entries)) = (problems.list.is_empty(), &root.value) {
         let mut values = reader::table(entries, None, layout::keys_of(entries), "", &mut problems);
+        problems.misread = !problems.list.is_empty();
         let files = Files::new(sources);
         let (mut short, mut cautions) = (None, Vec::new());
         if short::asks_for_space(&values) && !layout::is_spatial(values.keys) && problems.list.is_empty() {

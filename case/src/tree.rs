@@ -291,6 +291,17 @@ fn put(root: &mut Node, path: &str, node: Node, all: &Place, problems: &mut Prob
     *target = node;
 }
 
+/// Whether a text is a value of TOML.
+pub(super) fn is_value(text: &str) -> bool {
+    DeValue::parse_recoverable(text.trim()).1.is_empty()
+}
+
+/// The item of a list that a part of a path means.
+pub(super) fn item<'n>(items: &'n [Node], part: &str) -> Option<&'n Node> {
+    let (number, _) = choose(items, part).ok().flatten()?;
+    items.get(number)
+}
+
 /// The item of a list that a part of a path means, and whether the part is its number, from 1, or its name: the only table of a list
 /// needs neither.
 ///

@@ -96,6 +96,7 @@ impl Values {
     }
 
     /// The key of this name whose value was written in a source.
+    #[cfg(feature = "sweep")]
     pub(super) fn set_by(&self, source: usize, name: &str) -> Option<&Filled> {
         self.entries.iter().find_map(|filled| {
             let within = match &filled.value {

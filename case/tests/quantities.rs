@@ -1,8 +1,8 @@
 //! Numbers of a run, asked for by name.
 
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use flexion_case::{Quantity, Reading, Request, Run, read};
+use flexion_case::{Effort, Quantity, Reading, Request, Run, read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -101,4 +101,59 @@ fn what_is_no_quantity_is_refused_with_the_nearest_name() {
     assert!(refused("tip.deflection.min@5..3").contains("two times"));
     assert!(refused("ground.impulse").contains("ground"));
     assert!(refused("work.step").contains("work"));
+}
+
+/// Times of extremes are those of a fine run within their errors, of coarse meshes, loose tolerances and records far apart.
+#[test]
+fn times_of_extremes_have_errors_that_hold() {
+    let names = [
+        "tip.deflection.time-of-min",
+        "tip.deflection.time-of-max@10..20",
+        "tip.deflection.time-of-min@15..20",
+        "tip.axial.time-of-min",
+        "tip.deflection_velocity.time-of-max@5..10",
+    ];
+    let fine = [
+        "basis.elements=40",
+        "integrator={kind='radau',tolerance=1e-9,absolute-tolerance=1e-11}",
+        "output.step=1 ms",
+    ];
+    let none = Request { effort: None, ..Request::default() };
+    let full = Request { effort: Some(Effort::Full), ..Request::default() };
+    for folder in ["p1_spin_up_4", "p1_spin_up_20"] {
+        let (truth, quantities) = run(&case(folder, &fine), &names, &none);
+        let exact: Vec<f64> = quantities.iter().map(|of| of.collect(&truth).unwrap().value).collect();
+        for changes in [
+            &["basis.elements=10"][..],
+            &["basis.elements=4"],
+            &["basis={kind='modes',axial=3,transverse=3}"],
+            &["integrator={kind='radau',tolerance=1e-4,absolute-tolerance=1e-4}"],
+            &["output.step=0.1 s"],
+        ] {
+            let (run, quantities) = run(&case(folder, changes), &names, &full);
+            for (quantity, exact) in quantities.iter().zip(&exact) {
+                let found = quantity.collect(&run).unwrap();
+                let (off, error) = ((found.value - exact).abs(), found.error.unwrap_or(f64::INFINITY));
+                println!(
+                    "{folder} {changes:?} {}: {:.5} off {off:.1e}, stated {error:.1e}",
+                    quantity.name(),
+                    found.value
+                );
+                assert!(off <= error, "{folder} {changes:?} {}: {off:.2e} {error:.2e}", quantity.name());
+            }
+        }
+    }
+}
+
+/// The impulse of a stop with e = ½ is that of the moment of momentum about the hinge: single impacts count, bursts not twice.
+#[test]
+fn the_impulse_of_a_contact_is_that_of_all_its_impacts() {
+    for (restitution, expected) in [("0", 2.2057), ("0.5", 2.1798)] {
+        let restitution = format!("contact.1.law.restitution={restitution}");
+        let reading = case("falling_pendulum", &["run.duration=0.6 s", &restitution]);
+        let names = ["ground.impulse@..0.6"];
+        let (run, quantities) = run(&reading, &names, &Request { effort: None, ..Request::default() });
+        let found = quantities[0].collect(&run).unwrap().value;
+        assert!((found - expected).abs() < 2e-3, "{restitution}: {found}");
+    }
 }

@@ -4,7 +4,6 @@ use crate::run::Progress;
 use crate::{Outcome, case, screen};
 use flexion_case::{Advice, AdviseError, RefineError, Target, Tried, Trusted, Untried};
 use flexion_results::{Artifact, Directory, OutputError};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 /// Most rows that are printed; all are in the files.

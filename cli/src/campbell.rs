@@ -1,11 +1,11 @@
 //! `flexion campbell`: modes of vibration over a range of speeds.
 
 use crate::run::stop_on_ctrl_c;
-use crate::vibration::{self, Options, Speed, report, speed};
+use crate::vibration::{self, Options, report};
 use crate::{Outcome, case, screen};
 use flexion::analysis::campbell::Crossing;
-use flexion_case::{Diagram, DiagramRequest, Reading, VibrationError};
-use flexion_results::{Artifact, Directory, Frequencies, Resonance};
+use flexion_case::{Diagram, DiagramRequest, Reading, Speeds, VibrationError};
+use flexion_results::{Artifact, Directory, Resonance};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -32,8 +32,8 @@ pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
     /// Range of speeds, e.g. 0:50:100 or '0 rpm:20 rpm:100'
-    #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = range, allow_hyphen_values = true)]
-    speeds: Range,
+    #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = Speeds::read, allow_hyphen_values = true)]
+    speeds: Speeds,
     /// Number of modes, the lowest at any of the speeds
     #[arg(long, value_name = "N", default_value = "6", value_parser = vibration::count)]
     modes: usize,
@@ -56,56 +56,13 @@ pub struct Arguments {
     threads: usize,
 }
 
-/// Speeds from, to, how many.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
-    from: Speed,
-    to: Speed,
-    count: usize,
-}
-
 /// Most lines ω = kΩ.
 const MOST_REVOLUTIONS: i64 = 1000;
-/// Most speeds of a diagram.
-const MOST: usize = 100_000;
 
 fn margin(text: &str) -> Result<f64, String> {
     match text.trim_end_matches('%').trim().parse::<f64>() {
         Ok(percent) if (0.0..100.0).contains(&percent) => Ok(percent),
         _ => Err("it is a number of percent from 0 to less than 100".to_owned()),
-    }
-}
-
-fn range(text: &str) -> Result<Range, String> {
-    let parts: Vec<&str> = text.split(':').collect();
-    // The unit of the first is that of the last too, where that has none.
-    let last = |from: &str, to: &str| match to.trim().parse::<f64>() {
-        Ok(_) => {
-            speed(&format!("{to}{}", from.trim().trim_start_matches(|c: char| "0123456789.+-eE".contains(c))))
-        }
-        Err(_) => speed(to),
-    };
-    let (from, to, count) = match parts[..] {
-        [from, to] => (speed(from)?, last(from, to)?, 51),
-        [from, to, count] => {
-            let whole = count.trim().parse::<usize>();
-            (speed(from)?, last(from, to)?, whole.map_err(|_| format!("`{count}` is no number of speeds"))?)
-        }
-        _ => return Err("write FROM:TO:NUMBER, e.g. 0:50:100".to_owned()),
-    };
-    if !(2..=MOST).contains(&count) {
-        return Err(format!("there are from 2 to {MOST} speeds, not {count}"));
-    }
-    Ok(Range { from, to, count })
-}
-
-impl Range {
-    /// The speeds [rad/s].
-    fn speeds(&self, unit: &Frequencies) -> Vec<f64> {
-        let (from, to) = (self.from.in_radians(unit), self.to.in_radians(unit));
-        let last = self.count - 1;
-        let at = |i: usize| if i == last { to } else { from + (to - from) * i as f64 / last as f64 };
-        (0..self.count).map(at).collect()
     }
 }
 
@@ -118,7 +75,7 @@ pub fn campbell(arguments: &Arguments) -> Outcome {
 fn diagram(arguments: &Arguments, reading: &Reading) -> Result<Outcome, VibrationError> {
     let units = arguments.options.units(&reading.case, arguments.speeds.to)?;
     let request = DiagramRequest {
-        speeds: arguments.speeds.speeds(&units.speed),
+        speeds: arguments.speeds.in_radians(&units.speed),
         count: arguments.modes,
         revolutions: arguments.revolutions,
         margin: arguments.margin,

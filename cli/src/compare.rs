@@ -5,7 +5,6 @@ use flexion_results::plot::difference_figure;
 use flexion_results::{
     Artifact, Comparison, Directory, OutputError, Results, ResultsError, compare_csv, compare_json,
 };
-use std::io::Write;
 use std::path::PathBuf;
 
 /// The runs to compare.

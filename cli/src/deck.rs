@@ -7,7 +7,6 @@ use flexion::linalg::Vec3;
 use flexion_case::kinds::beam::{Beam, End};
 use flexion_case::{Reading, deck};
 use flexion_results::{Artifact, Directory};
-use std::io::Write;
 use std::path::PathBuf;
 
 /// Difference between stations from which on it is said: parts, and angles [rad].

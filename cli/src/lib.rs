@@ -11,6 +11,7 @@ mod check;
 mod compare;
 mod completions;
 mod deck;
+mod lab;
 mod list;
 mod man;
 mod modes;
@@ -68,6 +69,8 @@ enum Command {
     Plot(plot::Arguments),
     /// Write a page that plays the motion or the modes of a result
     View(view::Arguments),
+    /// Open the lab, where a case is changed and computed in the browser
+    Lab(lab::Arguments),
     /// Find the cheapest coupling, basis and integrator with which a case holds a tolerance
     Advise(advise::Arguments),
     /// Compute figures, tables and claims of papers again, and write a report
@@ -123,6 +126,7 @@ pub fn program(words: Vec<OsString>) -> u8 {
         Command::Plot(arguments) => plot::plot(&arguments),
         Command::Advise(arguments) => advise::advise(&arguments),
         Command::View(arguments) => view::view(&arguments),
+        Command::Lab(arguments) => lab::lab(&arguments),
         Command::Completions(arguments) => completions::completions(&arguments),
         Command::Man(arguments) => man::man(&arguments),
         Command::Check(arguments) => check::check(&arguments),

@@ -1,8 +1,8 @@
 //! `flexion modes`: modes of vibration at one speed.
 
-use crate::vibration::{self, Options, Speed};
+use crate::vibration::{self, Options};
 use crate::{Outcome, case, screen};
-use flexion_case::{FoundModes, ModesRequest, Reading, VibrationError, moves};
+use flexion_case::{FoundModes, ModesRequest, Reading, Speed, VibrationError, moves};
 use flexion_results::{Artifact, Directory, Frequencies};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub struct Arguments {
     #[command(flatten)]
     case: case::Selection,
     /// Speed of rotation, a number of the unit or with a unit of its own: '12.1 rpm'
-    #[arg(long, value_name = "SPEED", default_value = "0", value_parser = vibration::speed, allow_hyphen_values = true)]
+    #[arg(long, value_name = "SPEED", default_value = "0", value_parser = Speed::read, allow_hyphen_values = true)]
     speed: Speed,
     /// Number of modes, the lowest
     #[arg(long, value_name = "N", default_value = "10", value_parser = vibration::count)]

@@ -3,8 +3,8 @@
 use crate::run::stop_on_ctrl_c;
 use crate::{Outcome, screen};
 use flexion_reproduce::{
-    Answer, Described, Options, Progress, Reproduced, built_in, built_in_names, check, compute, expected,
-    from_folder, identity_of_program, of_paper, write,
+    Answer, Counts, Described, Options, Progress, Reproduced, built_in, built_in_names, check, compute,
+    expected, from_folder, identity_of_program, of_paper, write,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
@@ -63,20 +63,29 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
     }
     let stop = stop_on_ctrl_c();
     let stopped = || stop.load(Ordering::Relaxed);
-    let keep = (!arguments.check).then(|| arguments.output.join("kept"));
-    let identity = identity_of_program();
+    let common = Options {
+        long: arguments.long,
+        only: None,
+        threads: arguments.threads,
+        keep: (!arguments.check).then(|| arguments.output.join("kept")),
+        identity: identity_of_program(),
+    };
+    let mut sound = true;
+    for Asked { paper, items, .. } in &papers {
+        if let Err(error) = flexion_reproduce::sound(paper, items, &common) {
+            error.0.iter().for_each(|problem| screen::report(&format!("error: {problem}\n")));
+            sound = false;
+        }
+    }
+    if !sound {
+        return Outcome::Rejected;
+    }
     let mut answers: Vec<Vec<Option<Answer>>> = Vec::new();
     for Asked { paper, items, .. } in &papers {
         let (needs, numbers) = of_paper(paper);
         let only: BTreeSet<usize> =
             numbers.iter().filter(|((item, _), _)| items.contains(item)).map(|(_, number)| *number).collect();
-        let options = Options {
-            long: arguments.long,
-            only: Some(only),
-            threads: arguments.threads,
-            keep: keep.clone(),
-            identity: identity.clone(),
-        };
+        let options = Options { only: Some(only), ..common.clone() };
         let bar = ProgressBar::new(0);
         if let Ok(style) = ProgressStyle::with_template("{prefix} {wide_bar} {pos}/{len} runs  {eta} left") {
             bar.set_style(style);
@@ -88,19 +97,7 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
         });
         bar.finish_and_clear();
         match computed {
-            Ok(computed) => {
-                let mut faulty = false;
-                for (need, answer) in needs.iter().zip(&computed) {
-                    for fault in answer.iter().flat_map(|answer| &answer.faults) {
-                        faulty = true;
-                        screen::report(&format!("error: {}, run `{}`: {fault}\n", paper.name, need.run.name));
-                    }
-                }
-                if faulty {
-                    return Outcome::Rejected;
-                }
-                answers.push(computed);
-            }
+            Ok(computed) => answers.push(computed),
             Err(error) => {
                 screen::report(&format!("{error}\n"));
                 return Outcome::Incomplete;
@@ -132,21 +129,35 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
             return Outcome::Incomplete;
         }
     };
-    let mut rows = vec![
-        ["paper", "holds", "does not hold", "not decided", "lost", "not run"].map(String::from).to_vec(),
-    ];
-    for paper in &reproduced {
-        let verdicts = paper.verdicts();
-        let count =
-            |word: &str| verdicts.iter().filter(|(_, verdict)| verdict.word() == word).count().to_string();
-        let counts = ["holds", "fails", "undecided", "lost", "not-run"].map(count);
-        rows.push(std::iter::once(paper.paper.name.clone()).chain(counts).collect());
+    let mut rows = vec![counted("paper", "results", Counts::NAMES.map(str::to_owned))];
+    let of = |name: &str, counts: &Counts| {
+        counted(name, &counts.results.to_string(), counts.paper.map(|n| n.to_string()))
+    };
+    let all: Vec<Counts> = reproduced.iter().map(Reproduced::counts).collect();
+    rows.extend(reproduced.iter().zip(&all).map(|(paper, counts)| of(&paper.paper.name, counts)));
+    let sum = all.iter().fold(Counts::default(), |sum, counts| sum.plus(*counts));
+    if all.len() > 1 {
+        rows.push(of("all", &sum));
     }
     screen::print(&screen::table(&rows));
+    let beside: Vec<String> = Counts::NAMES
+        .iter()
+        .zip(sum.ours)
+        .filter(|(_, n)| *n > 0)
+        .map(|(name, n)| format!("{name} {n}"))
+        .collect();
+    if !beside.is_empty() {
+        screen::print(&format!("\n  claims of ours beside the papers: {}\n", beside.join(", ")));
+    }
     if let Some(report) = files.iter().find(|file| file.ends_with("report.html")) {
         screen::print(&format!("\n  report  {}\n", report.display()));
     }
     Outcome::Finished
+}
+
+/// A row of what came out.
+fn counted(name: &str, results: &str, counts: [String; 5]) -> Vec<String> {
+    [name.to_owned(), results.to_owned()].into_iter().chain(counts).collect()
 }
 
 /// The papers that these words name; what is wrong goes to standard error.

@@ -1,7 +1,7 @@
 //! `flexion modes` and `flexion campbell`: what both have in common.
 
 use crate::{Outcome, screen};
-use flexion_case::{Case, Reading, VibrationError, units};
+use flexion_case::{Case, Reading, Speed, VibrationError, Wanted};
 use flexion_results::{Frequencies, Units};
 
 /// Units of frequencies and speeds.
@@ -54,19 +54,10 @@ pub struct Options {
 impl Options {
     /// The units of speeds and frequencies, where this speed is given.
     pub fn units(&self, case: &Case, given: Speed) -> Result<Units, VibrationError> {
-        if self.dimensionless {
-            let both = case.dimensionless()?;
-            return Ok(Units { speed: both, frequency: both });
-        }
-        let written = match given {
-            Speed::Rpm(_) => Unit::Rpm,
-            Speed::Plain(_) | Speed::Radians(_) => Unit::Radians,
-        };
-        let speed = self.speed_unit.or(self.unit).unwrap_or(written);
-        // Nobody counts vibrations by the minute, unless he says so.
-        let usual = if speed == Unit::Rpm { Unit::Hertz } else { speed };
-        let frequency = self.frequency_unit.or(self.unit).unwrap_or(usual);
-        Ok(Units { speed: speed.frequencies(), frequency: frequency.frequencies() })
+        let of = |unit: Option<Unit>| unit.map(Unit::frequencies);
+        let (both, dimensionless) = (of(self.unit), self.dimensionless);
+        Wanted { both, speed: of(self.speed_unit), frequency: of(self.frequency_unit), dimensionless }
+            .units(case, given)
     }
 
     /// The title of a figure.
@@ -82,40 +73,6 @@ pub fn refused(error: &VibrationError) -> Outcome {
         error => report(&error.to_string()),
     }
     Outcome::Rejected
-}
-
-/// A speed as written: `12.1 rpm`, or a number of the unit chosen.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Speed {
-    /// A number of the unit chosen.
-    Plain(f64),
-    /// With a unit, in rad/s.
-    Radians(f64),
-    /// In revolutions a minute, in rad/s.
-    Rpm(f64),
-}
-
-impl Speed {
-    /// The speed in rad/s.
-    pub fn in_radians(self, unit: &Frequencies) -> f64 {
-        match self {
-            Speed::Plain(x) => x / unit.factor,
-            Speed::Radians(x) | Speed::Rpm(x) => x,
-        }
-    }
-}
-
-/// A speed from the command line.
-pub fn speed(text: &str) -> Result<Speed, String> {
-    let text = text.trim();
-    if let Ok(x) = text.parse::<f64>() {
-        return Ok(Speed::Plain(x));
-    }
-    match units::parse(text, &units::ANGULAR_SPEED) {
-        Ok(x) if text.ends_with("rpm") => Ok(Speed::Rpm(x)),
-        Ok(x) => Ok(Speed::Radians(x)),
-        Err(error) => Err(format!("`{text}` is no speed: {}; {}", error.message, error.help)),
-    }
 }
 
 /// Reports an error.

@@ -4,11 +4,11 @@
 
 use flexion::analysis::recording::{Record, record};
 use flexion::analysis::transient::{Ending, Plan};
-use flexion::command::{Command, CommandFault, Commanded, Input, Signal, Timing};
+use flexion::command::{Command, CommandFault, Commanded, Input, LawState, Signal, Timing};
 use flexion::drive::{Actuator, Controller};
 use flexion::hub_beam::load::{self, Axes};
 use flexion::hub_beam::{Drive, ExactCoupling, FreeHub, Hub, HubBeam};
-use flexion::integrator::{GeneralizedAlpha, Integrator, Radau, RungeKutta, Tolerance};
+use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean, Radau, RungeKutta, Tolerance};
 use flexion::multibody::{Body, Drive as OfJoint, Joint, Kind, Marker, Model, Multibody, Part};
 use flexion::profile::{Constant, Motion, Profile};
 use flexion::section::{Resultants, Uniform};
@@ -26,7 +26,7 @@ type Value = Result<f64, String>;
 struct Function<F>(F);
 
 impl<F: FnMut(f64, &[f64]) -> Value + Send> Command for Function<F> {
-    fn value(&mut self, t: f64, y: &[f64]) -> Value {
+    fn value(&mut self, t: f64, y: &[f64], _rates: &mut [f64]) -> Value {
         (self.0)(t, y)
     }
 }
@@ -40,7 +40,7 @@ fn input(
 ) -> Input {
     let reads = reads.iter().map(|name| (*name).to_owned()).collect();
     let (name, command) = (name.to_owned(), Box::new(Function(law)));
-    Input { name, unit: "N*m", reads, timing, command, signal: Arc::clone(signal) }
+    Input { name, unit: "N*m", reads, states: Vec::new(), timing, command, signal: Arc::clone(signal) }
 }
 
 fn continuous() -> Timing {
@@ -210,6 +210,176 @@ fn a_sampled_law_is_asked_once_a_sample_in_order_of_time_and_held() {
         assert!((column.last().unwrap() - angle).abs() < 1e-9);
         assert!(angle > 0.5);
     }
+}
+
+/// A law with states: u(t, y, x), and the rates of x.
+struct WithStates<F>(F);
+
+impl<F: FnMut(f64, &[f64], &mut [f64]) -> f64 + Send> Command for WithStates<F> {
+    fn value(&mut self, t: f64, y: &[f64], rates: &mut [f64]) -> Value {
+        Ok((self.0)(t, y, rates))
+    }
+}
+
+fn with_states(
+    reads: &[&str],
+    states: &[(&str, f64)],
+    signal: &Arc<Signal>,
+    law: impl FnMut(f64, &[f64], &mut [f64]) -> f64 + Send + 'static,
+) -> Input {
+    let states =
+        states.iter().map(|(name, start)| LawState { name: (*name).to_owned(), start: *start, size: 1.0 });
+    let states = states.collect();
+    Input {
+        command: Box::new(WithStates(law)),
+        states,
+        ..input("u", reads, continuous(), signal, |_, _| Ok(0.0))
+    }
+}
+
+/// J θ̈ = u = k_i x − k_p θ − k_d θ̇ with ẋ = 1 − θ and the roots −1, −2, −3: θ = 1 − 3 e⁻ᵗ + 3 e⁻²ᵗ − e⁻³ᵗ.
+#[test]
+fn a_state_of_a_law_is_integrated_with_the_motion_by_every_method() {
+    const J: f64 = 0.5;
+    let exact = |t: f64| 1.0 - 3.0 * (-t).exp() + 3.0 * (-2.0 * t).exp() - (-3.0 * t).exp();
+    // x − 11/6 = ∫ (1 − θ) from ∞ on.
+    let integral = |t: f64| 11.0 / 6.0 - 3.0 * (-t).exp() + 1.5 * (-2.0 * t).exp() - (-3.0 * t).exp() / 3.0;
+    let methods: [(Box<dyn Integrator>, f64); 4] = [
+        (Box::new(radau(1e-9)), 1e-8),
+        (Box::new(GeneralizedAlpha::chung_hulbert(0.9).unwrap()), 2e-6),
+        (Box::new(GeneralizedAlpha::newmark(0.25, 0.5).unwrap()), 2e-6),
+        (Box::new(MoreauJean::new(0.5).unwrap()), 2e-3),
+    ];
+    for (method, allowed) in methods {
+        let torque = Arc::new(Signal::default());
+        let law = with_states(&["hinge.angle", "hinge.speed"], &[("sum", 0.0)], &torque, |_, y, rates| {
+            rates[0] = 1.0 - y[0];
+            J * (6.0 * y[2] - 11.0 * y[0] - 6.0 * y[1])
+        });
+        let mut system = Commanded::new(Box::new(rigid(&torque)), vec![law], 4.0).unwrap();
+        let by_law = run(&mut system, &*method, 4.0);
+        let name = method.info().name;
+        assert_eq!(by_law.ending, Ending::Finished, "{name}");
+        let times = by_law.trajectory.times();
+        for (column, exact) in [("hinge.angle", &exact as &dyn Fn(f64) -> f64), ("law.u.sum", &integral)] {
+            let values = by_law.column(column).unwrap();
+            let most =
+                times.iter().zip(&values).fold(0.0, |most, (t, x)| f64::max(most, (x - exact(*t)).abs()));
+            assert!(most < allowed, "{name}, {column}: {most}");
+        }
+    }
+}
+
+/// A beam on a free hub: an explicit method and one under error control give the same.
+#[test]
+fn explicit_methods_integrate_states() {
+    let by = |method: &dyn Integrator, step: Option<f64>| {
+        let (force, torque) = (Arc::new(Signal::default()), Arc::new(Signal::default()));
+        let law = with_states(&["hub.angle", "hub.speed"], &[("sum", 0.2)], &torque, |_, y, rates| {
+            rates[0] = TARGET - y[0];
+            30.0 * y[2] - 40.0 * y[0] - 12.0 * y[1]
+        });
+        let mut system = commanded(vec![law], &torque, &force);
+        let run = record(&mut system, method, &Plan { step, ..Plan::new(0.4, 0.05) });
+        assert_eq!(run.ending, Ending::Finished);
+        run
+    };
+    let (explicit, implicit) = (by(&RungeKutta::new(), Some(2e-5)), by(&radau(1e-10), None));
+    for (column, allowed) in [("law.u.sum", 1e-9), ("hub.angle", 1e-8)] {
+        let most = difference(&explicit, &implicit, column);
+        assert!(most < allowed, "{column}: {most}");
+    }
+}
+
+#[test]
+fn tangents_of_laws_with_states_are_the_derivatives_of_their_residuals() {
+    let (force, torque) = (Arc::new(Signal::default()), Arc::new(Signal::default()));
+    let of_tip = with_states(&["tip.deflection"], &[("a", 0.3), ("b", -0.2)], &force, |t, y, rates| {
+        rates[0] = y[0] * y[2] + t;
+        rates[1] = (y[1] * y[2]).sin() - 2.0 * y[2];
+        t - 70.0 * y[0] * y[1] + y[2]
+    });
+    let of_hub = with_states(&["hub.angle"], &[("c", 1.0)], &torque, |_, y, rates| {
+        rates[0] = -y[1] * y[1];
+        y[0] * y[1]
+    });
+    let of_hub = Input { name: "torque".to_owned(), ..of_hub };
+    let mut system = commanded(vec![of_tip, of_hub], &torque, &force);
+    let mut s = verify_state(&system);
+    assert_eq!(verify::dynamics(&mut system, &s), []);
+    system.pass(&s).unwrap();
+    s.t = 0.7;
+    assert_eq!(verify::dynamics(&mut system, &s), []);
+}
+
+/// A double pendulum, whose rows stand behind the states: with a filter of the angle that takes no time, the torque is that of the angle.
+#[test]
+fn states_stand_beside_rows_of_constraints() {
+    let links = |torque: &Arc<Signal>| {
+        let mut model = Model::new();
+        let bars = ["first", "second"].map(|name| model.body(Body::new(name, 3.0, [0.5; 3])));
+        let at = |part, x: f64| Marker::new(part, [x, 0.0, 0.0]);
+        let torque: Arc<dyn Profile> = torque.clone();
+        let actuator = Actuator { torque, damping: 0.4, stiffness: 0.0, rest_angle: 0.0, controller: None };
+        let driven = OfJoint::Actuated(actuator);
+        let ground = at(Part::Ground, -1.0);
+        model.joint(Joint::new("hinge", Kind::Revolute, ground, at(bars[0], -1.0)).driven(driven));
+        model.joint(Joint::new("elbow", Kind::Spherical, at(bars[0], 1.0), at(bars[1], 1.0)));
+        Multibody::new(model).unwrap()
+    };
+    let by = |states: &[(&str, f64)], method: &dyn Integrator| {
+        let torque = Arc::new(Signal::default());
+        let filtered = !states.is_empty();
+        let law = with_states(&["hinge.angle"], states, &torque, move |_, y, rates| {
+            if filtered {
+                rates[0] = 1e4 * (y[0] - y[1]);
+            }
+            8.0 * (1.0 - y[usize::from(filtered)])
+        });
+        let mut system = Commanded::new(Box::new(links(&torque)), vec![law], 1.0).unwrap();
+        run(&mut system, method, 1.0)
+    };
+    let exact = by(&[], &radau(1e-9));
+    let methods: [(Box<dyn Integrator>, f64); 2] =
+        [(Box::new(radau(1e-8)), 2e-4), (Box::new(GeneralizedAlpha::chung_hulbert(0.8).unwrap()), 2e-4)];
+    for (method, allowed) in methods {
+        let found = by(&[("filtered", 0.0)], &*method);
+        assert_eq!(found.ending, Ending::Finished);
+        for column in ["hinge.angle", "elbow.force.x"] {
+            let largest = exact.column(column).unwrap().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let most = difference(&exact, &found, column);
+            assert!(most < allowed * largest && largest > 0.1, "{column}: {most} of {largest}");
+        }
+    }
+}
+
+#[test]
+fn states_that_cannot_be_integrated_are_refused_by_name() {
+    let fault = |change: &dyn Fn(&mut Input)| {
+        let torque = Arc::new(Signal::default());
+        let mut law = with_states(&["hinge.angle"], &[("sum", 0.0)], &torque, |_, _, _| 0.0);
+        change(&mut law);
+        Commanded::new(Box::new(rigid(&torque)), vec![law], 1.0).err().unwrap().to_string()
+    };
+    let sampled = fault(&|law| law.timing = Timing::Sampled { period: 0.1 });
+    assert!(sampled.contains("a sampled law has a memory of its own"), "{sampled}");
+    assert!(fault(&|law| law.states[0].start = f64::NAN).contains("`sum` of the law `u` begins with NaN"));
+    assert!(fault(&|law| law.states[0].size = 0.0).contains("has the size 0"));
+    assert!(fault(&|law| law.states[0].name = "hinge.angle".to_owned()).contains("a name of its own"));
+    assert!(fault(&|law| law.states.push(law.states[0].clone())).contains("a name of its own"));
+}
+
+#[test]
+fn a_rate_that_is_no_number_ends_the_run() {
+    let torque = Arc::new(Signal::default());
+    let law = with_states(&[], &[("x", 0.0)], &torque, |t, _, rates| {
+        rates[0] = if t > 0.4 { f64::NAN } else { 1.0 };
+        1.0
+    });
+    let mut system = Commanded::new(Box::new(rigid(&torque)), vec![law], 1.0).unwrap();
+    let by_law = run(&mut system, &radau(1e-6), 1.0);
+    let Ending::Failed(error) = &by_law.ending else { panic!("it finished") };
+    assert!(error.to_string().contains("gives the rate NaN of `x` at t = 0.4"), "{error}");
 }
 
 #[test]

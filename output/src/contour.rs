@@ -20,9 +20,9 @@ impl Contour {
     pub fn of(shape: &Shape) -> Contour {
         // Half the area of a regular polygon of n corners on the unit circle is n/4 sin(2π/n).
         let angle = TAU / CORNERS as f64;
-        let larger = (angle / angle.sin()).sqrt();
+        let larger = (angle / libm::sin(angle)).sqrt();
         let round = |y: f64, z: f64| -> Vec<[f64; 2]> {
-            let corners = (0..CORNERS).map(|i| (angle * (i as f64 + 0.5)).sin_cos());
+            let corners = (0..CORNERS).map(|i| libm::sincos(angle * (i as f64 + 0.5)));
             corners.map(|(sin, cos)| [larger * y * cos, larger * z * sin]).collect()
         };
         let (outer, inner) = match *shape {

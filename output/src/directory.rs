@@ -1,11 +1,17 @@
 //! The directory of results: all files appear together, when they are whole.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use super::OutputError;
+#[cfg(feature = "archives")]
+use super::archive;
+use super::arrays::Arrays;
 use super::artifact::Artifact;
 use super::staging::{self, NEW};
 use super::written::{LIST, Written};
@@ -34,7 +40,14 @@ pub struct Directory {
     made: bool,
     /// Holds the lock.
     _lock: Option<File>,
+    /// The files, of a directory in memory.
+    memory: Option<Mutex<BTreeMap<String, Vec<u8>>>>,
 }
+
+/// Where the bytes of a file go.
+pub trait Sink: io::Write + io::Seek {}
+
+impl<W: io::Write + io::Seek> Sink for W {}
 
 impl Directory {
     /// [`Directory::create_for`] a run that reads no files.
@@ -78,7 +91,19 @@ impl Directory {
         refuse_foreign(&path, &taken)?;
         staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
         let replaces = own.iter().any(|artifact| path.join(&*artifact.file_name()).exists());
-        Ok(Directory { path, own, replaces, made, _lock: lock })
+        Ok(Directory { path, own, replaces, made, _lock: lock, memory: None })
+    }
+
+    /// A directory of one kind of results that is in memory, for where there are no files.
+    pub fn in_memory(own: &'static [Artifact]) -> Directory {
+        let memory = Some(Mutex::default());
+        Directory { path: PathBuf::new(), own, replaces: false, made: false, _lock: None, memory }
+    }
+
+    /// The files of a directory in memory, by their names.
+    pub fn into_files(self) -> BTreeMap<String, Vec<u8>> {
+        let files = self.memory.map(|files| files.into_inner().unwrap_or_else(PoisonError::into_inner));
+        files.unwrap_or_default()
     }
 
     /// Where it is, as it was asked for.
@@ -99,8 +124,15 @@ impl Directory {
     pub fn write(
         &self,
         artifact: Artifact,
-        fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
+        fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
     ) -> Result<(), OutputError> {
+        if let Some(files) = &self.memory {
+            let mut bytes = io::Cursor::new(Vec::new());
+            fill(&mut bytes).map_err(OutputError::io("write", &self.file(artifact)))?;
+            let mut files = files.lock().unwrap_or_else(PoisonError::into_inner);
+            files.insert(artifact.file_name().into_owned(), bytes.into_inner());
+            return Ok(());
+        }
         let staged = self.path.join(NEW).join(&*artifact.file_name());
         let attempt = || {
             // A directory that has gone is not made again: its owner removed it.
@@ -120,12 +152,45 @@ impl Directory {
         })
     }
 
+    /// Writes an archive of arrays, as [`Directory::write`] does; nothing in a build without archives.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] with the system's reason.
+    #[cfg(feature = "archives")]
+    pub fn write_arrays(
+        &self,
+        artifact: Artifact,
+        put: impl FnOnce(&mut dyn Arrays) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        self.write(artifact, |f| {
+            let mut archive = archive::archive(f);
+            put(&mut archive)?;
+            archive::finish(archive)
+        })
+    }
+
+    /// Writes nothing: this build has no archives.
+    ///
+    /// # Errors
+    /// None.
+    #[cfg(not(feature = "archives"))]
+    pub fn write_arrays(
+        &self,
+        _: Artifact,
+        _: impl FnOnce(&mut dyn Arrays) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
+        Ok(())
+    }
+
     /// Brings all that was written under its names, in place of former results.
     ///
     /// # Errors
     /// [`OutputError::Io`] with the system's reason; the next run into this directory finishes the work.
     /// [`OutputError::Foreign`] where a file has come meanwhile that has the name of a result.
     pub fn publish(&self) -> Result<(), OutputError> {
+        if self.memory.is_some() {
+            return Ok(());
+        }
         self.refuse_what_came()?;
         let published = staging::publish(&self.path, &self.closing());
         published.map_err(OutputError::io("move the results into", &self.path))
@@ -221,6 +286,9 @@ fn probe(path: &Path) -> io::Result<()> {
     written.and(staging::clear(path))
 }
 
+/// Number of files that this process has begun to write by [`write_file`].
+static WRITTEN: AtomicU64 = AtomicU64::new(0);
+
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
@@ -235,7 +303,10 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let attempt = || {
         let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        let hidden = path.with_file_name(format!(".{}.flexion-new", name.to_string_lossy()));
+        // Another process, or another thread, may write the same file at the same time.
+        let (process, number) = (std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed));
+        let hidden =
+            path.with_file_name(format!(".{}.{process}-{number}.flexion-new", name.to_string_lossy()));
         let written = write_whole(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
         if written.is_err() {
             let _ = fs::remove_file(&hidden);
@@ -464,5 +535,25 @@ mod tests {
             assert_eq!(path.exists(), was_there);
             assert!(!was_there || fs::read_dir(&path).unwrap().next().is_none());
         }
+    }
+
+    /// Several that write one file at the same time write it whole, each under a name of its own.
+    #[test]
+    fn a_file_that_is_written_by_many_is_that_of_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("report.html");
+        std::thread::scope(|scope| {
+            for letter in b'a'..b'i' {
+                let file = &file;
+                scope.spawn(move || {
+                    for _ in 0..8 {
+                        write_file(file, &vec![letter; 100_000]).unwrap();
+                    }
+                });
+            }
+        });
+        let whole = fs::read(&file).unwrap();
+        assert!(whole.len() == 100_000 && whole.iter().all(|letter| *letter == whole[0]));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }

@@ -29,6 +29,13 @@ impl Frequencies {
     /// Revolutions a minute.
     pub const RPM: Frequencies = Frequencies { name: "rpm", factor: 60.0 / std::f64::consts::TAU };
 
+    /// The unit of this name: `rad/s`, `Hz` or `rpm`.
+    pub fn named(name: &str) -> Option<Frequencies> {
+        [Frequencies::RADIANS, Frequencies::HERTZ, Frequencies::RPM]
+            .into_iter()
+            .find(|unit| unit.name == name)
+    }
+
     /// Multiples of 1/τ, τ in s.
     pub fn dimensionless(time: f64) -> Frequencies {
         Frequencies { name: "", factor: time }
@@ -37,7 +44,7 @@ impl Frequencies {
     /// A frequency in rad/s: six decimals, and six digits of a small one.
     pub fn number(&self, frequency: f64) -> String {
         let value = frequency * self.factor;
-        let whole = value.abs().log10().floor();
+        let whole = libm::log10(value.abs()).floor();
         let decimals = if whole < -1.0 && whole.is_finite() { 5 - whole as i32 } else { 6 };
         format!("{value:.*}", usize::try_from(decimals).unwrap_or(6).min(MOST))
     }
@@ -50,7 +57,7 @@ impl Frequencies {
     /// The same with five digits, for headings and messages.
     pub fn short(&self, frequency: f64) -> String {
         let value = frequency * self.factor;
-        let whole = value.abs().max(1.0).log10().floor() as usize + 1;
+        let whole = libm::log10(value.abs().max(1.0)).floor() as usize + 1;
         format!("{value:.*} {}", 5_usize.saturating_sub(whole), self.name).trim_end().to_owned()
     }
 

@@ -3,8 +3,11 @@
 //! [`Directory`] owns the files of one run; [`write_run`] fills it. The other items turn a
 //! [`Trajectory`] into one format each and know nothing of directories.
 
+#[cfg(feature = "archives")]
 mod archive;
+mod arrays;
 mod artifact;
+mod columns;
 mod compare;
 mod contour;
 mod csv;
@@ -15,10 +18,12 @@ mod events;
 mod frequencies;
 mod load_path;
 mod nearest;
+#[cfg(feature = "archives")]
 mod npz;
 mod obstacles;
-
+#[cfg(feature = "page")]
 mod page;
+#[cfg(feature = "figures")]
 pub mod plot;
 mod provenance;
 mod resonance;
@@ -36,22 +41,27 @@ mod state_file;
 mod statics;
 mod summary;
 mod vibration;
+mod view;
 mod vtk;
 mod written;
 
+pub use self::arrays::{Arrays, Numbers};
 pub use self::artifact::Artifact;
+pub use self::columns::shown_columns;
 pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
 pub use self::contour::Contour;
 pub use self::csv::{read_csv, write_csv};
-pub use self::directory::{Directory, write_file};
+pub use self::directory::{Directory, Sink, write_file};
 pub use self::error::{OutputError, ResultsError};
 pub use self::estimate::{Errors, Rung};
 pub use self::events::write_events;
 pub use self::frequencies::{Frequencies, Units};
 pub use self::load_path::{LoadPath, LoadPoint, PointError};
 pub use self::nearest::nearest;
+#[cfg(feature = "archives")]
 pub use self::npz::write_npz;
 pub use self::obstacles::Drawn;
+#[cfg(feature = "page")]
 pub use self::page::view_page;
 pub use self::provenance::resolved_case;
 pub use self::resonance::{Resonance, resonances};
@@ -62,10 +72,13 @@ pub use self::shapes::{Shape, Shapes};
 pub use self::shown::with_error;
 pub use self::solids::{write_film, write_solids};
 pub use self::spring::Spring;
-pub use self::state_file::{read_state, write_state};
-pub use self::statics::write_statics;
+pub use self::state_file::read_state;
+#[cfg(feature = "archives")]
+pub use self::state_file::write_state;
+pub use self::statics::{put_statics, statics_json, write_statics};
 pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
-pub use self::vibration::{write_campbell, write_modes};
+pub use self::vibration::{campbell_json, modes_json, put_campbell, put_modes, write_campbell, write_modes};
+pub use self::view::{view_modes, view_run};
 pub use self::vtk::{write_pvd, write_vtp, write_vtu};
 pub use flexion::analysis::error::{ColumnError, Unstable};
 pub use flexion::analysis::recording::{Entry, Events, Extremes, Trajectory};

@@ -6,6 +6,7 @@ use npyz::WriterBuilder;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, DateTime, ZipWriter};
 
+use super::arrays::{Arrays, Numbers};
 use super::{Trajectory, archive};
 
 /// Writes a trajectory as a NumPy archive (NEP 1): one array of f64, shape (rows,), for each column,
@@ -34,8 +35,17 @@ pub(super) fn write_array<T: npyz::AutoSerialize, W: Write + Seek>(
     write_shaped(archive, name, &[len as u64], values)
 }
 
+impl<W: Write + Seek> Arrays for ZipWriter<W> {
+    fn put(&mut self, name: &str, shape: &[u64], numbers: Numbers<'_>) -> io::Result<()> {
+        match numbers {
+            Numbers::Single(values) => write_shaped(self, name, shape, values.iter().copied()),
+            Numbers::Double(values) => write_shaped(self, name, shape, values.iter().copied()),
+        }
+    }
+}
+
 /// Writes one array of several dimensions, the last of which runs fastest.
-pub(super) fn write_shaped<T: npyz::AutoSerialize, W: Write + Seek>(
+fn write_shaped<T: npyz::AutoSerialize, W: Write + Seek>(
     archive: &mut ZipWriter<W>,
     name: &str,
     shape: &[u64],

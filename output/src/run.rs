@@ -1,19 +1,20 @@
 //! All files of one run, in the order that makes an interrupted write recognisable.
 
-use std::io::Write;
-
-use super::plot::Figure;
-use super::state_file::write_state;
 use super::{
     Artifact, Directory, OutputError, RunReport, Scene, Shapes, Status, Summary, Trajectory, resolved_case,
-    write_csv, write_events, write_film, write_npz, write_pvd, write_vtp, write_vtu,
+    write_csv, write_events, write_film, write_pvd, write_vtp, write_vtu,
 };
+#[cfg(feature = "figures")]
+use super::{plot::Figure, vibration::drawn};
+#[cfg(feature = "archives")]
+use super::{state_file::write_state, write_npz};
 use flexion::integrator::Checkpoint;
 
 /// What not every run has.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Attachments<'a> {
     /// The plot.
+    #[cfg(feature = "figures")]
     pub figure: Option<&'a Figure>,
     /// The tables that the case names, byte for byte.
     pub tables: &'a [(Artifact, Vec<u8>)],
@@ -47,24 +48,23 @@ pub fn write_run(
     for (artifact, bytes) in attachments.tables {
         directory.write(*artifact, |f| f.write_all(bytes))?;
     }
+    #[cfg(feature = "archives")]
     if let Some((checkpoint, text)) = attachments.state {
         directory.write(Artifact::State, |f| write_state(checkpoint, text, f))?;
     }
     // The smaller one first: it may still fit on a disk that is nearly full.
+    #[cfg(feature = "archives")]
     directory.write(Artifact::TrajectoryNpz, |f| write_npz(trajectory, f))?;
     directory.write(Artifact::TrajectoryCsv, |f| write_csv(trajectory, f))?;
     if let Some(events) = report.events {
         directory.write(Artifact::Events, |f| write_events(events, f))?;
     }
-    let mut warnings = report.warnings.to_vec();
-    if let Some(figure) = attachments.figure {
-        let drawing = figure.draw();
-        directory.write(Artifact::PlotSvg, |f| f.write_all(drawing.svg().as_bytes()))?;
-        match drawing.png() {
-            Ok(png) => directory.write(Artifact::PlotPng, |f| f.write_all(&png))?,
-            Err(e) => warnings.push(e.to_string()),
-        }
-    }
+    let warnings = report.warnings.to_vec();
+    #[cfg(feature = "figures")]
+    let warnings = match attachments.figure {
+        Some(figure) => drawn(directory, figure, [Artifact::PlotSvg, Artifact::PlotPng], warnings)?,
+        None => warnings,
+    };
     if let Some(shapes) = attachments.shapes {
         for (number, shape) in (0..).zip(shapes.iter()) {
             directory.write(Artifact::Shape(number), |f| write_vtu(&shape, f))?;
@@ -79,7 +79,7 @@ pub fn write_run(
         write_film(directory, scene, Artifact::ShapeSeries)?;
     }
     if let Some(scene) = attachments.scene.filter(|scene| !scene.is_empty()) {
-        directory.write(Artifact::Scene, |f| scene.write(f))?;
+        directory.write_arrays(Artifact::Scene, |to| scene.put(to))?;
     }
     let summary = Summary::of_run(&RunReport { warnings: &warnings, ..report.clone() }, trajectory);
     directory.write(Artifact::Summary, |f| f.write_all(summary.to_json().as_bytes()))?;
@@ -87,6 +87,7 @@ pub fn write_run(
     Ok(summary.status())
 }
 
+#[cfg(all(feature = "archives", feature = "figures"))]
 #[cfg(test)]
 mod tests {
     use super::*;

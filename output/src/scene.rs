@@ -16,11 +16,10 @@
 //! and `time` (n) \[s\]. A section stands at p + R (x e₁ + u), with the pose p, R of the root. Displacements are kept apart from the pose
 //! so that small ones keep their digits: what changes with time is stored in single precision.
 
-use std::io::{self, Seek, Write};
+use std::io;
 
-use super::archive;
+use super::arrays::{Arrays, Numbers, list};
 use super::contour::Contour;
-use super::npz::{write_array, write_shaped};
 use super::obstacles::Drawn;
 use super::shapes::stations;
 use super::spring::Spring;
@@ -158,6 +157,7 @@ impl Part {
     }
 
     /// Lines that show it at a time: the centreline of a beam, the edges of a box.
+    #[cfg(feature = "figures")]
     fn lines(&self, time: usize) -> Vec<Vec<Vec3>> {
         let sections = self.sections(time);
         if let Form::Beam { .. } = self.form {
@@ -280,6 +280,7 @@ impl Scene {
     }
 
     /// The lines of each part and spring at the time of this number, with its name \[m\].
+    #[cfg(feature = "figures")]
     pub(super) fn lines(&self, time: usize) -> Vec<(&str, Vec<Vec<Vec3>>)> {
         let parts = self.parts.iter().map(|part| (part.name.as_str(), part.lines(time)));
         let springs = self.springs.iter().zip(self.lines_of_springs(time));
@@ -292,6 +293,7 @@ impl Scene {
     }
 
     /// The obstacles.
+    #[cfg(feature = "figures")]
     pub(super) fn obstacles(&self) -> impl Iterator<Item = &Drawn> {
         self.obstacles.iter().map(|obstacle| &obstacle.drawn)
     }
@@ -317,23 +319,22 @@ impl Scene {
         self.parts.is_empty() || self.times.is_empty()
     }
 
-    /// Writes the NumPy archive. The same scene gives the same bytes.
+    /// Puts its arrays. The same scene gives the same bytes.
     ///
     /// # Errors
     /// Whatever `to` returns.
-    pub fn write(&self, to: impl Write + Seek) -> io::Result<()> {
-        let mut archive = archive::archive(to);
+    pub fn put(&self, to: &mut dyn Arrays) -> io::Result<()> {
         let times = self.times.len() as u64;
-        write_array(&mut archive, "time", self.times.len(), self.times.iter().copied())?;
+        to.put("time", &[times], Numbers::Double(&self.times))?;
         for part in &self.parts {
             let name = |what: &str| format!("{}.{what}", part.name);
-            write_shaped(&mut archive, &name("pose"), &[times, 7], part.poses.iter().copied())?;
+            to.put(&name("pose"), &[times, 7], Numbers::Single(&part.poses))?;
             let numbers: [(&str, Vec<f64>); 3] = match &part.form {
                 Form::Beam { stations, hub } => {
                     let shape = [times, stations.len() as u64, 3];
                     let fields = [("displacement", &part.displacements), ("rotation", &part.rotations)];
                     for (what, values) in fields {
-                        write_shaped(&mut archive, &name(what), &shape, values.iter().copied())?;
+                        to.put(&name(what), &shape, Numbers::Single(values))?;
                     }
                     let hub = hub.iter().copied().collect();
                     let section = part.contours.first().map_or(Vec::new(), |contour| contour.size().to_vec());
@@ -344,20 +345,22 @@ impl Scene {
                 }
             };
             for (what, values) in numbers.into_iter().filter(|(_, values)| !values.is_empty()) {
-                write_array(&mut archive, &name(what), values.len(), values.into_iter())?;
+                list(to, &name(what), values.into_iter())?;
             }
         }
         for Outline { drawn, points } in &self.obstacles {
             let shape = [times, points.len() as u64 / (3 * times).max(1), 3];
-            write_shaped(&mut archive, &format!("{}.outline", drawn.name), &shape, points.iter().copied())?;
+            to.put(&format!("{}.outline", drawn.name), &shape, Numbers::Single(points))?;
         }
-        archive::finish(archive)
+        Ok(())
     }
 }
 
+#[cfg(feature = "archives")]
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::archive;
     use flexion::contact::Plane;
     use flexion::multibody::rotation::{Quaternion, about};
     use flexion::system::{Dynamics, Events, Observed, Size, Steady, Weights};
@@ -403,9 +406,16 @@ mod tests {
         Vec3([chord * half.cos(), chord * half.sin(), 0.0])
     }
 
-    fn written(scene: &Scene) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
+    fn bytes(scene: &Scene) -> Vec<u8> {
         let mut out = Cursor::new(Vec::new());
-        scene.write(&mut out).unwrap();
+        let mut archive = archive::archive(&mut out);
+        scene.put(&mut archive).unwrap();
+        archive::finish(archive).unwrap();
+        out.into_inner()
+    }
+
+    fn written(scene: &Scene) -> BTreeMap<String, (Vec<u64>, Vec<f64>)> {
+        let out = Cursor::new(bytes(scene));
         let mut all = BTreeMap::new();
         archive::arrays(out, |name, array| {
             let shape = array.shape().to_vec();
@@ -514,16 +524,14 @@ mod tests {
 
     #[test]
     fn the_same_scene_gives_the_same_bytes() {
-        let bytes = || {
+        let once = || {
             let mut system = Bent { p: Vec3([0.0; 3]), d: Vec3([0.1; 3]) };
             let mut scene =
                 Scene::new(vec![Part::beam(("arm", 0), (2.0, 1), flat, None, &[])], Vec::new(), 1);
             scene.sample(&mut system, &at(0.3));
             scene.draw(&mut system);
-            let mut out = Cursor::new(Vec::new());
-            scene.write(&mut out).unwrap();
-            out.into_inner()
+            bytes(&scene)
         };
-        assert!(bytes() == bytes());
+        assert!(once() == once());
     }
 }

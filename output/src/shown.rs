@@ -6,7 +6,7 @@ pub fn with_error(value: f64, error: f64) -> String {
     if !(value.is_finite() && error.is_finite()) {
         return format!("{value:.6e} ± {error:.0e}");
     }
-    let place = |x: f64| x.abs().log10().floor() as i32;
+    let place = |x: f64| libm::log10(x.abs()).floor() as i32;
     let size = place(value.abs().max(error).max(f64::MIN_POSITIVE));
     let mut last = if error > 0.0 { place(error) } else { size - 9 };
     let scaled = error / 10f64.powi(last);

@@ -1,11 +1,14 @@
 //! `state.npz`: the last accepted step of a run, from which it can go on.
 
-use std::io::{self, Read, Seek, Write};
+#[cfg(feature = "archives")]
+use std::io::{self, Write};
+use std::io::{Read, Seek};
 
-use super::archive;
-use super::npz::write_array;
+#[cfg(feature = "archives")]
+use super::{archive, npz::write_array};
 use flexion::integrator::Checkpoint;
 
+#[cfg(feature = "archives")]
 /// Name of the text that says which model the state belongs to, and which integrator.
 const MODEL: &str = "model";
 
@@ -14,6 +17,7 @@ const MODEL: &str = "model";
 ///
 /// # Errors
 /// Whatever `to` returns.
+#[cfg(feature = "archives")]
 pub fn write_state(checkpoint: &Checkpoint, text: &str, to: impl Write + Seek) -> io::Result<()> {
     let mut archive = archive::archive(to);
     for (name, values) in checkpoint.entries() {
@@ -27,6 +31,7 @@ pub fn write_state(checkpoint: &Checkpoint, text: &str, to: impl Write + Seek) -
 ///
 /// # Errors
 /// What is wrong with the file, for people.
+#[cfg(feature = "archives")]
 pub fn read_state(from: impl Read + Seek) -> Result<(Checkpoint, String), String> {
     let (mut checkpoint, mut text) = (Checkpoint::default(), None);
     archive::arrays(from, |name, array| {
@@ -42,6 +47,16 @@ pub fn read_state(from: impl Read + Seek) -> Result<(Checkpoint, String), String
     Ok((checkpoint, text))
 }
 
+/// Reads nothing: this build has no archives.
+///
+/// # Errors
+/// Always.
+#[cfg(not(feature = "archives"))]
+pub fn read_state(_: impl Read + Seek) -> Result<(Checkpoint, String), String> {
+    Err("this build of Flexion reads no archives of NumPy".to_owned())
+}
+
+#[cfg(feature = "archives")]
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,12 +1,15 @@
 //! Files of a path of equilibria.
 
-use super::archive;
+use super::arrays::{Arrays, list};
+#[cfg(feature = "figures")]
 use super::plot::statics_figure;
-use super::vibration::{close, column, draw};
+use super::vibration::close;
+#[cfg(feature = "figures")]
+use super::vibration::drawn;
 use super::{Artifact, Directory, LoadPath, LoadPoint, OutputError, VERSION, resolved_case};
 use flexion::analysis::path::Critical;
 use serde_json::{Value, json};
-use std::io::Write;
+use std::io;
 
 /// Writes and publishes the files of a path. `case` is the resolved case; `cautions` are kept with the warnings.
 ///
@@ -20,8 +23,6 @@ pub fn write_statics(
     cautions: &[String],
 ) -> Result<(), OutputError> {
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
-    // Numbers of growing motions; −1 where they were not found.
-    let unstable = |p: &LoadPoint| p.stability.map_or(-1, |found| found.unstable() as i64);
     directory.write(Artifact::StaticsCsv, |f| {
         write!(f, "load-factor,length,unstable,critical")?;
         path.channels.iter().try_for_each(|channel| write!(f, ",{} [{}]", channel.name, channel.unit))?;
@@ -34,25 +35,41 @@ pub fn write_statics(
         }
         Ok(())
     })?;
-    directory.write(Artifact::StaticsNpz, |f| {
-        let mut archive = archive::archive(f);
-        let points = path.points.iter();
-        column(&mut archive, "load_factor", points.clone().map(|p| p.factor))?;
-        column(&mut archive, "length", points.clone().map(|p| p.length))?;
-        column(&mut archive, "unstable", points.clone().map(|p| unstable(p) as f64))?;
-        for (i, channel) in path.channels.iter().enumerate() {
-            column(&mut archive, &channel.name, points.clone().map(|p| p.values[i]))?;
-        }
-        archive::finish(archive)
-    })?;
-    let mut warnings = cautions.to_vec();
-    warnings.extend(draw(
-        directory,
-        &statics_figure(path, title),
-        [Artifact::StaticsSvg, Artifact::StaticsPng],
-    )?);
+    directory.write_arrays(Artifact::StaticsNpz, |to| put_statics(to, path))?;
+    #[cfg(not(feature = "figures"))]
+    let (warnings, _) = (cautions.to_vec(), title);
+    #[cfg(feature = "figures")]
+    let warnings = {
+        let figure = statics_figure(path, title);
+        drawn(directory, &figure, [Artifact::StaticsSvg, Artifact::StaticsPng], cautions.to_vec())?
+    };
+    close(directory, Artifact::StaticsJson, &statics_json(path, &warnings))
+}
+
+/// Puts the arrays of a path: load factors, lengths, numbers of growing motions, and the recorded quantities.
+///
+/// # Errors
+/// Whatever `to` returns.
+pub fn put_statics(to: &mut dyn Arrays, path: &LoadPath) -> io::Result<()> {
+    let points = path.points.iter();
+    list(to, "load_factor", points.clone().map(|p| p.factor))?;
+    list(to, "length", points.clone().map(|p| p.length))?;
+    list(to, "unstable", points.clone().map(|p| unstable(p) as f64))?;
+    for (i, channel) in path.channels.iter().enumerate() {
+        list(to, &channel.name, points.clone().map(|p| p.values[i]))?;
+    }
+    Ok(())
+}
+
+/// Number of growing motions; −1 where it was not found.
+fn unstable(point: &LoadPoint) -> i64 {
+    point.stability.map_or(-1, |found| found.unstable() as i64)
+}
+
+/// What is found on a path, as it is written: the last equilibrium and the critical states.
+pub fn statics_json(path: &LoadPath, warnings: &[String]) -> Value {
     let critical: Vec<Value> = path.critical().map(|(point, _)| json(path, point)).collect();
-    let summary = json!({
+    json!({
         "version": VERSION,
         "points": path.points.len(),
         "to": path.to,
@@ -61,8 +78,7 @@ pub fn write_statics(
         "critical": critical,
         "errors": { "estimated": path.unknown.is_none(), "reason": path.unknown },
         "warnings": warnings,
-    });
-    close(directory, Artifact::StaticsJson, &summary)
+    })
 }
 
 /// A point with the quantities that are printed.

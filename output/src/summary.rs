@@ -184,6 +184,11 @@ impl Summary {
         self.entries.get(key)
     }
 
+    /// All entries.
+    pub fn entries(&self) -> &Map<String, Value> {
+        &self.entries
+    }
+
     /// The summary as indented JSON with a final newline.
     pub fn to_json(&self) -> String {
         format!("{:#}\n", Value::Object(self.entries.clone()))

@@ -1,34 +1,75 @@
 //! Files of modes and of Campbell diagrams.
 
-use super::archive::{self, Latched};
+use super::arrays::{Arrays, Numbers, list};
 use super::frequencies::{Frequencies, Units};
-use super::npz::{write_array, write_shaped};
+#[cfg(feature = "figures")]
 use super::plot::{Figure, campbell_figure, modes_figure};
 use super::{Artifact, Directory, OutputError, Resonance, VERSION, resolved_case};
 use flexion::analysis::campbell::{Branch, Campbell, Instability};
 use flexion::analysis::modes::{Mode, Modes};
 use num_complex::Complex64;
 use serde_json::{Value, json};
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
-use zip::ZipWriter;
-
-/// An archive that is being written.
-pub(super) type Archive<'a, 'b> = ZipWriter<Latched<&'a mut BufWriter<&'b mut File>>>;
+use std::io;
 
 /// Writes displacements along the three axes of the sections, and the rotation about the first, in arrays of the given size.
 fn write_shapes<'u>(
-    archive: &mut Archive<'_, '_>,
+    to: &mut dyn Arrays,
     mode: &str,
     size: &[u64],
     movement: impl Iterator<Item = &'u [Complex64; 4]> + Clone,
 ) -> io::Result<()> {
     for (axis, name) in ["axial", "chord", "flap", "torsion"].iter().enumerate() {
         let u = movement.clone().map(|u| u[axis]);
-        write_shaped(archive, &format!("{mode}.{name}.real"), size, u.clone().map(|u| u.re))?;
-        write_shaped(archive, &format!("{mode}.{name}.imaginary"), size, u.map(|u| u.im))?;
+        let (real, imaginary): (Vec<f64>, Vec<f64>) = u.map(|u| (u.re, u.im)).unzip();
+        to.put(&format!("{mode}.{name}.real"), size, Numbers::Double(&real))?;
+        to.put(&format!("{mode}.{name}.imaginary"), size, Numbers::Double(&imaginary))?;
     }
     Ok(())
+}
+
+/// Puts the arrays of modes: their frequencies, the stations of their shapes \[m\], and these.
+///
+/// # Errors
+/// Whatever `to` returns.
+pub fn put_modes(
+    to: &mut dyn Arrays,
+    modes: &[Mode],
+    stations: &[f64],
+    unit: &Frequencies,
+) -> io::Result<()> {
+    list(to, "frequency", modes.iter().map(|m| m.frequency() * unit.factor))?;
+    let mesh = |m: &Mode| m.mesh.map_or(f64::NAN, |error| error * unit.factor);
+    list(to, "mesh_error", modes.iter().map(mesh))?;
+    list(to, "damping_ratio", modes.iter().map(Mode::damping_ratio))?;
+    list(to, "station", stations.iter().copied())?;
+    for (number, m) in modes.iter().enumerate() {
+        let size = [stations.len() as u64];
+        write_shapes(to, &format!("mode{}", number + 1), &size, m.shape.movement.iter())?;
+    }
+    Ok(())
+}
+
+/// The table of modes at a speed [rad/s], as it is written.
+pub fn modes_json(
+    modes: &Modes,
+    speed: f64,
+    units: &Units,
+    title: Option<&str>,
+    warnings: &[String],
+) -> Value {
+    let unit = &units.frequency;
+    let list: Vec<Value> = modes.modes.iter().map(|m| mode_json(m, unit)).collect();
+    json!({
+        "version": VERSION,
+        "title": title,
+        "unit": unit.name,
+        "speed-unit": units.speed.name,
+        "speed": speed * units.speed.factor,
+        "counted": modes.counted,
+        "modes": list,
+        "overdamped": modes.overdamped.iter().map(|m| -m.eigenvalue.re).collect::<Vec<f64>>(),
+        "warnings": warnings,
+    })
 }
 
 /// Writes and publishes the files of modes at a speed [rad/s], with the names of the three axes of sections. `case` is the resolved case; `cautions` are kept with
@@ -65,38 +106,15 @@ pub fn write_modes(
         }
         Ok(())
     })?;
-    directory.write(Artifact::ModesNpz, |f| {
-        let mut archive = archive::archive(f);
-        let all = &modes.modes;
-        column(&mut archive, "frequency", all.iter().map(|m| m.frequency() * unit.factor))?;
-        let mesh = |m: &Mode| m.mesh.map_or(f64::NAN, |error| error * unit.factor);
-        column(&mut archive, "mesh_error", all.iter().map(mesh))?;
-        column(&mut archive, "damping_ratio", all.iter().map(Mode::damping_ratio))?;
-        column(&mut archive, "station", stations.iter().copied())?;
-        for (number, m) in all.iter().enumerate() {
-            let size = [stations.len() as u64];
-            write_shapes(&mut archive, &format!("mode{}", number + 1), &size, m.shape.movement.iter())?;
-        }
-        archive::finish(archive)
-    })?;
-    let mut warnings = cautions.to_vec();
-    warnings.extend(draw(
-        directory,
-        &modes_figure(modes, (stations, axes), unit, title),
-        [Artifact::ModesSvg, Artifact::ModesPng],
-    )?);
-    let list: Vec<Value> = modes.modes.iter().map(|m| mode_json(m, unit)).collect();
-    let summary = json!({
-        "version": VERSION,
-        "title": title,
-        "unit": unit.name,
-        "speed-unit": units.speed.name,
-        "speed": speed * units.speed.factor,
-        "counted": modes.counted,
-        "modes": list,
-        "overdamped": modes.overdamped.iter().map(|m| -m.eigenvalue.re).collect::<Vec<f64>>(),
-        "warnings": warnings,
-    });
+    directory.write_arrays(Artifact::ModesNpz, |to| put_modes(to, &modes.modes, stations, unit))?;
+    #[cfg(not(feature = "figures"))]
+    let (warnings, _) = (cautions.to_vec(), (axes, title));
+    #[cfg(feature = "figures")]
+    let warnings = {
+        let figure = modes_figure(modes, (stations, axes), unit, title);
+        drawn(directory, &figure, [Artifact::ModesSvg, Artifact::ModesPng], cautions.to_vec())?
+    };
+    let summary = modes_json(modes, speed, units, title, &warnings);
     close(directory, Artifact::ModesJson, &summary)
 }
 
@@ -117,10 +135,6 @@ pub fn write_campbell(
     let (unit, speed) = (&units.frequency, &units.speed);
     directory.write(Artifact::ResolvedCase, |f| f.write_all(resolved_case(case).as_bytes()))?;
     let curves: Vec<Curve> = (1..).zip(&campbell.branches).map(|(n, b)| Curve::new(n, b, unit)).collect();
-    // A curve that has ended is not a number.
-    let at = |values: &[(f64, f64)], speed: f64| {
-        values.iter().find(|value| value.0 == speed).map_or(f64::NAN, |value| value.1)
-    };
     directory.write(Artifact::CampbellCsv, |f| {
         write!(f, "{}", speed.column("speed"))?;
         let columns = || curves.iter().flat_map(|curve| curve.columns.iter().map(move |c| (curve, c)));
@@ -144,31 +158,61 @@ pub fn write_campbell(
         }
         Ok(())
     })?;
-    directory.write(Artifact::CampbellNpz, |f| {
-        let mut archive = archive::archive(f);
-        column(&mut archive, "speed", campbell.speeds.iter().map(|s| s * speed.factor))?;
-        column(&mut archive, "station", stations.iter().copied())?;
-        for (curve, branch) in curves.iter().zip(&campbell.branches) {
-            for (name, values) in &curve.columns {
-                let name = format!("mode{}.{}", curve.number, name.replace('-', "_"));
-                column(&mut archive, &name, campbell.speeds.iter().map(|&s| at(values, s)))?;
-            }
-            // Speed by speed; a curve that has ended is not a number.
-            let size = [campbell.speeds.len() as u64, stations.len() as u64];
-            let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 4]; stations.len()];
-            let shapes = campbell.speeds.iter().enumerate().map(|(i, _)| match branch.points.get(i) {
-                Some(point) if point.mode.shape.movement.len() == stations.len() => {
-                    &point.mode.shape.movement
-                }
-                _ => &missing,
-            });
-            write_shapes(&mut archive, &format!("mode{}", curve.number), &size, shapes.flatten())?;
+    directory.write_arrays(Artifact::CampbellNpz, |to| put_campbell(to, campbell, units, Some(stations)))?;
+    #[cfg(not(feature = "figures"))]
+    let (warnings, _) = (cautions.to_vec(), (revolutions, title));
+    #[cfg(feature = "figures")]
+    let warnings = {
+        let figure = campbell_figure(campbell, revolutions, units, title);
+        drawn(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng], cautions.to_vec())?
+    };
+    let summary = campbell_json(campbell, resonances, units, &warnings);
+    close(directory, Artifact::CampbellJson, &summary)
+}
+
+/// Puts the arrays of a Campbell diagram: speeds, and for each mode its frequency, damping ratio, error by the mesh and shares; with
+/// stations \[m\] these, and the shapes at them.
+///
+/// # Errors
+/// Whatever `to` returns.
+pub fn put_campbell(
+    to: &mut dyn Arrays,
+    campbell: &Campbell,
+    units: &Units,
+    stations: Option<&[f64]>,
+) -> io::Result<()> {
+    let (unit, speed) = (&units.frequency, &units.speed);
+    let curves: Vec<Curve> = (1..).zip(&campbell.branches).map(|(n, b)| Curve::new(n, b, unit)).collect();
+    list(to, "speed", campbell.speeds.iter().map(|s| s * speed.factor))?;
+    if let Some(stations) = stations {
+        list(to, "station", stations.iter().copied())?;
+    }
+    for (curve, branch) in curves.iter().zip(&campbell.branches) {
+        for (name, values) in &curve.columns {
+            let name = format!("mode{}.{}", curve.number, name.replace('-', "_"));
+            list(to, &name, campbell.speeds.iter().map(|&s| at(values, s)))?;
         }
-        archive::finish(archive)
-    })?;
-    let figure = campbell_figure(campbell, revolutions, units, title);
-    let mut warnings = cautions.to_vec();
-    warnings.extend(draw(directory, &figure, [Artifact::CampbellSvg, Artifact::CampbellPng])?);
+        let Some(stations) = stations else { continue };
+        // Speed by speed; a curve that has ended is not a number.
+        let size = [campbell.speeds.len() as u64, stations.len() as u64];
+        let missing = vec![[Complex64::new(f64::NAN, f64::NAN); 4]; stations.len()];
+        let shapes = campbell.speeds.iter().enumerate().map(|(i, _)| match branch.points.get(i) {
+            Some(point) if point.mode.shape.movement.len() == stations.len() => &point.mode.shape.movement,
+            _ => &missing,
+        });
+        write_shapes(to, &format!("mode{}", curve.number), &size, shapes.flatten())?;
+    }
+    Ok(())
+}
+
+/// What is found in a Campbell diagram, as it is written: ends of branches, crossings, critical speeds, resonances, instabilities.
+pub fn campbell_json(
+    campbell: &Campbell,
+    resonances: &[Resonance],
+    units: &Units,
+    warnings: &[String],
+) -> Value {
+    let (unit, speed) = (&units.frequency, &units.speed);
     let crossings: Vec<Value> = campbell
         .crossings
         .iter()
@@ -211,7 +255,7 @@ pub fn write_campbell(
             json!({ "first": end(b.points.first()), "last": end(b.points.last()), "followed-to": followed })
         })
         .collect();
-    let summary = json!({
+    json!({
         "version": VERSION,
         "unit": unit.name,
         "speed-unit": units.speed.name,
@@ -222,8 +266,12 @@ pub fn write_campbell(
         "resonances": resonances,
         "instabilities": instabilities,
         "warnings": warnings,
-    });
-    close(directory, Artifact::CampbellJson, &summary)
+    })
+}
+
+/// The value of a curve at a speed; a curve that has ended is not a number.
+fn at(values: &[(f64, f64)], speed: f64) -> f64 {
+    values.iter().find(|value| value.0 == speed).map_or(f64::NAN, |value| value.1)
 }
 
 /// What is written of a branch at each of its speeds.
@@ -277,26 +325,21 @@ fn mode_json(m: &Mode, unit: &Frequencies) -> Value {
     })
 }
 
-pub(super) fn column(
-    archive: &mut Archive<'_, '_>,
-    name: &str,
-    values: impl Iterator<Item = f64> + Clone,
-) -> io::Result<()> {
-    write_array(archive, name, values.clone().count(), values)
-}
-
-/// Draws a figure; a picture that cannot be made is a warning.
-pub(super) fn draw(
+/// Draws a figure, and gives the warnings with that of a picture that cannot be made.
+#[cfg(feature = "figures")]
+pub(super) fn drawn(
     directory: &Directory,
     figure: &Figure,
     [svg, png]: [Artifact; 2],
+    mut warnings: Vec<String>,
 ) -> Result<Vec<String>, OutputError> {
     let drawing = figure.draw();
     directory.write(svg, |f| f.write_all(drawing.svg().as_bytes()))?;
     match drawing.png() {
-        Ok(bytes) => directory.write(png, |f| f.write_all(&bytes)).map(|()| Vec::new()),
-        Err(error) => Ok(vec![error.to_string()]),
+        Ok(bytes) => directory.write(png, |f| f.write_all(&bytes))?,
+        Err(error) => warnings.push(error.to_string()),
     }
+    Ok(warnings)
 }
 
 pub(super) fn close(directory: &Directory, artifact: Artifact, summary: &Value) -> Result<(), OutputError> {

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 _Array: TypeAlias = npt.NDArray[np.float64]
 _Notify: TypeAlias = Callable[[float, str], bool] | None
-_Law: TypeAlias = Callable[[float, tuple[float, ...]], float]
+_Law: TypeAlias = Callable[[float, tuple[float, ...]], float | tuple[float, list[float]]]
 _Described: TypeAlias = list[tuple[str, str, str, str]]
 _Extremes: TypeAlias = tuple[float, float, float, float, float]
 _ModeRow: TypeAlias = tuple[complex, float | None, int, float, str, str]
@@ -56,7 +56,15 @@ class Case:
         tolerance: str | None,
         quantity: str | None,
         laws: list[
-            tuple[str, Mapping[str, Any] | None, list[str], float | None, list[float], Callable[[], _Law]]
+            tuple[
+                str,
+                Mapping[str, Any] | None,
+                list[str],
+                list[tuple[str, float, float]],
+                float | None,
+                list[float],
+                Callable[[], _Law],
+            ]
         ],
         notify: _Notify,
     ) -> tuple[Run, BaseException | None, BaseException | None]: ...

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
@@ -281,8 +282,8 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
     def submit(part: int, tries: int) -> None:
         try:
             waiting[executor.submit(_compute, packed, part, where, manifest)] = (part, tries)
-        except RuntimeError:
-            # An executor that is broken takes no more: the rest is computed here.
+        except Exception:
+            # An executor that is broken, or whose scheduler is gone, takes no more: the rest is computed here.
             waiting.clear()
 
     try:
@@ -305,7 +306,9 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
                 return
     finally:
         for future in waiting:
-            future.cancel()
+            # Of a client whose scheduler is gone nothing can be taken back.
+            with suppress(Exception):
+                future.cancel()
 
 
 def _write(path: Path, data: bytes) -> None:

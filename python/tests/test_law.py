@@ -60,6 +60,55 @@ def test_a_law_that_is_the_controller_of_a_case_moves_the_hub_as_that_does(free:
     assert work[1] < 1.1 * work[0]
 
 
+def pi(t: float, state: State) -> tuple[float, dict[str, float]]:
+    left = 1.0 - state["hub.angle"]
+    return 300 * left - 600 * state["hub.speed"] + 200 * state["sum"], {"sum": left}
+
+
+@pytest.mark.parametrize("change", [{}, {"model.coupling": "space", "run.duration": 1}, {"integrator": {"kind": "hht", "step": "2 ms"}}])
+def test_a_state_is_the_integral_of_its_rate(free: flexion.Case, change: dict[str, Any]) -> None:
+    run = (free | change).run(laws={"hub.torque": flexion.law(pi, READS, states={"sum": 0.5})})
+    angle, times, found = run["hub.angle"].data, run.times, run["law.hub.torque.sum"]
+    # Simpson's rule over two records at a time.
+    step = times[1] - times[0]
+    of = 1.0 - angle[: len(angle) - (1 - len(angle) % 2)]
+    by_hand = 0.5 + step / 3 * (of[0] + of[-1] + 4 * of[1:-1:2].sum() + 2 * of[2:-1:2].sum())
+    error = found.final.error
+    assert error is not None and abs(found.data[len(of) - 1] - by_hand) < 5 * error + 1e-7
+    torque = 300 * (1.0 - angle) - 600 * run["hub.speed"].data + 200 * found.data
+    assert np.max(np.abs(run["hub.torque"].data - torque)) < 1e-8 * np.max(np.abs(torque))
+
+
+@pytest.mark.parametrize("initial", [{"kind": "static"}, {"kind": "modes", "amplitudes": ["1 mm"]}], ids=["static", "modes"])
+def test_states_do_not_change_how_a_run_begins(initial: dict[str, Any]) -> None:
+    still = {**ARM, "hub": {"motion": {"kind": "constant", "speed": 0}}, "initial": initial, "run": {"duration": 0.1}}
+    case = flexion.Case(still | {"load": [{"on": "tip", "force": [0, 5]}]})
+    push = {"on": "tip", "force": [0, 1]}
+
+    def nothing(t: float, state: State) -> tuple[float, dict[str, float]]:
+        return 0.0, {"x": -3 * state["x"]}
+
+    own, by_law = case.run(errors="off"), case.run(errors="off", laws={"push": flexion.law(nothing, load=push, states={"x": 2.0})})
+    assert apart(own, by_law, "tip.deflection") < 1e-5 * float(np.max(np.abs(own["tip.deflection"].data)))
+    assert by_law["law.push.x"].final == pytest.approx(2 * math.exp(-0.3), abs=1e-6)
+
+
+def test_a_law_with_states_says_what_it_must_give(free: flexion.Case) -> None:
+    def run(function: Any, **more: Any) -> None:
+        free.run(errors="off", laws={"hub.torque": flexion.law(function, **more)})
+
+    with pytest.raises(flexion.RunError, match=r"with the rates of x, and not 1.0"):
+        run(lambda t, state: 1.0, states={"x": 0.0})
+    with pytest.raises(flexion.RunError, match="the rate of each of its states, x, and not of y"):
+        run(lambda t, state: (1.0, {"y": 0.0}), states={"x": 0.0})
+    with pytest.raises(flexion.RunError, match="gives the rate inf of `x`"):
+        run(lambda t, state: (1.0, {"x": math.inf}), states={"x": 0.0})
+    with pytest.raises(ValueError, match="`sizes` names `y`, which is no state"):
+        flexion.law(lambda t, state: 0.0, sizes={"y": 1.0})
+    with pytest.raises(flexion.CaseError, match="must have a name of its own"):
+        run(lambda t, state: (1.0, {"hub.angle": 0.0}), reads=["hub.angle"], states={"hub.angle": 0.0})
+
+
 @pytest.mark.parametrize("space", [False, True], ids=["plane", "space"])
 def test_a_law_of_time_alone_gives_the_bits_of_a_table(free: flexion.Case, space: bool) -> None:
     case = free | ({"model.coupling": "space", "run.duration": 1} if space else {})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import pickle
 import random
@@ -10,6 +11,7 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Iterator
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -286,3 +288,52 @@ def test_on_dask_a_worker_that_is_killed_loses_no_row(arm: flexion.Case, tmp_pat
             found = flexion.sweep(arm, vary, QUANTITY, errors="none", client=client, folder=folder, part=4)
     assert_same(expected, found)
     assert len(list(folder.glob("part-*.parquet"))) == 50
+
+
+@pytest.fixture
+def dask_processes(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen[bytes]]]]:
+    """A scheduler and two workers, each a process: the address, and the processes."""
+    pytest.importorskip("distributed")
+    file = tmp_path / "scheduler.json"
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--port", "0", "--no-dashboard", "--scheduler-file", str(file)]
+    quiet: Any = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    processes = [subprocess.Popen(command, **quiet)]
+    try:
+        deadline = time.monotonic() + 60
+        while not file.exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        worker = [sys.executable, "-m", "distributed.cli.dask_worker", "--scheduler-file", str(file), "--nthreads", "1", "--no-dashboard"]
+        processes += [subprocess.Popen([*worker, "--local-directory", str(tmp_path / f"worker{i}")], **quiet) for i in range(2)]
+        yield json.loads(file.read_text())["address"], processes
+    finally:
+        for process in processes:
+            process.kill()
+            process.wait()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL")
+@pytest.mark.filterwarnings("ignore")
+def test_a_scheduler_that_is_killed_loses_no_row(
+    arm: flexion.Case, tmp_path: Path, dask_processes: tuple[str, list[subprocess.Popen[bytes]]]
+) -> None:
+    import distributed
+
+    address, (scheduler, first, _) = dask_processes
+    vary = {"section.modulus": np.linspace(60e9, 80e9, 200)}
+    expected = flexion.sweep(arm, vary, QUANTITY, errors="none")
+    folder = tmp_path / "sweep"
+
+    def kill() -> None:
+        for count, process in ((3, first), (10, scheduler)):
+            while len(list(folder.glob("part-*.parquet"))) < count:
+                time.sleep(0.005)
+            process.kill()
+
+    # So long a client looks for a scheduler that is gone.
+    with distributed.Client(address, timeout="5s") as client:
+        client.wait_for_workers(2, timeout=60)
+        threading.Thread(target=kill, daemon=True).start()
+        found = flexion.sweep(arm, vary, QUANTITY, errors="none", client=client, folder=folder, part=2)
+    assert scheduler.wait(10) == -signal.SIGKILL
+    assert_same(expected, found)
+    assert len(list(folder.glob("part-*.parquet"))) == 100

@@ -14,8 +14,8 @@ pub struct Answer {
     pub warnings: Vec<String>,
     /// The case as it is written, in SI.
     pub stated: String,
-    /// What is asked of the run and is nothing that it could have: names that are none.
-    pub faults: Vec<String>,
+    /// The units of what is asked of it, whether there is a value or not.
+    pub units: BTreeMap<String, String>,
     /// What the errors are from.
     pub errors: String,
     /// Its quantities, or why there is none.

@@ -1,10 +1,10 @@
 //! `--check`: the values of a paper against those that were accepted.
 
 use crate::answer::Answer;
-use crate::described::Described;
+use crate::described::{As, Described};
 use crate::need::of_paper;
 use crate::rule::Ruled;
-use crate::term::Answers;
+use crate::term::{Answers, of_run};
 use crate::verdict::judged;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -84,6 +84,13 @@ fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
     }
     for (id, item) in &described.items {
         let answers = of_item(id, item, &numbers, answers);
+        // Curves are kept by their differences.
+        for of in crate::need::terms(item).iter().filter(|of| of.compared == Some(As::CurveDifference)) {
+            if let (Ok(value), Some(to)) = (of_run(of, &answers), &of.to) {
+                let name = format!("{id}: {} to {to} | {} curve-difference", of.run, of.quantity);
+                out.values.insert(name, [value.value, value.error.unwrap_or(-1.0)]);
+            }
+        }
         for (i, claim) in item.claims.iter().enumerate() {
             let verdict = judged(claim, &answers);
             if !matches!(verdict.ruled, Ruled::NotRun(_)) && !crate::need::varies(&claim.rule) {

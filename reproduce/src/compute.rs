@@ -11,7 +11,7 @@ use flexion::system::Channel;
 use flexion_case::{Contents, Effort, ModesRequest, Quantity, Reading, Request, Run, parse_with, units};
 use flexion_results::{Frequencies, Status, Trajectory, Units};
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,7 +24,7 @@ pub struct Options {
     /// Whether runs that take long are computed.
     pub long: bool,
     /// The numbers of the runs that are computed; `None` for all.
-    pub only: Option<std::collections::BTreeSet<usize>>,
+    pub only: Option<BTreeSet<usize>>,
     /// Number of threads; 0 for one on each processor.
     pub threads: usize,
     /// Where answers are kept and looked for; `None` computes all anew.
@@ -131,7 +131,7 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
                 (_, Some(energy)) => frequencies(of_energy(&reading, energy), true),
                 _ => in_time(&reading, need, shared, stop)?,
             };
-            answer.stated = reading.stated();
+            answer.stated = titled(reading.stated(), &run.key.set);
             answer
         }
     };
@@ -145,6 +145,14 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
     }
     answer.seconds = began.elapsed().as_secs_f64();
     Ok(answer)
+}
+
+/// A case as it is written, whose title says what was changed.
+fn titled(stated: String, set: &[String]) -> String {
+    let Some((before, rest)) = stated.split_once("title = \"") else { return stated };
+    let Some((title, behind)) = rest.split_once("\"\n").filter(|_| !set.is_empty()) else { return stated };
+    let changes: Vec<String> = set.iter().map(|set| set.replacen('=', " = ", 1).replace('"', "'")).collect();
+    format!("{before}title = \"{title}, with {}\"\n{behind}", changes.join(", "))
 }
 
 /// What a run in time says.
@@ -166,17 +174,7 @@ fn in_time(
             (name, read.and_then(|mut read| read.pop().ok_or_else(|| format!("{name} is no quantity"))))
         })
         .collect();
-    let mut faults: Vec<String> =
-        quantities.values().filter_map(|read| read.as_ref().err().cloned()).collect();
-    let channels = prepared.channels();
-    for name in &need.columns {
-        if channels.iter().all(|channel| channel.name != *name) {
-            let nearest =
-                flexion_results::nearest(name, channels.iter().map(|channel| channel.name.as_str()));
-            let nearest = nearest.map_or(String::new(), |name| format!("; perhaps `{name}`"));
-            faults.push(format!("there is no column `{name}`{nearest}"));
-        }
-    }
+    let units = units_of(&quantities, &need.columns, &prepared.channels());
     let against = need.run.key.against.as_ref();
     let request = Request { effort: against.is_none().then_some(Effort::Full), ..Request::default() };
     let mut watch =
@@ -251,12 +249,25 @@ fn in_time(
         status: if run.status == Status::Finished { "finished" } else { "failed" }.to_owned(),
         message: run.message.clone(),
         warnings,
-        faults,
+        units,
         errors,
         values: values.collect(),
         curves: curves.collect(),
         ..Answer::default()
     })
+}
+
+/// The units of quantities and columns.
+fn units_of(
+    quantities: &BTreeMap<&String, Result<Quantity, String>>,
+    columns: &BTreeSet<String>,
+    channels: &[Channel],
+) -> BTreeMap<String, String> {
+    let of =
+        quantities.iter().filter_map(|(name, of)| Some(((*name).clone(), of.as_ref().ok()?.unit.clone())));
+    let known = |name: &String| channels.iter().find(|channel| channel.name == *name);
+    let columns = columns.iter().filter_map(|name| Some((name.clone(), known(name)?.unit.to_string())));
+    of.chain(columns).collect()
 }
 
 /// A column over time, with its difference from another run times a factor.
@@ -291,8 +302,10 @@ fn frequencies(found: Found, own: bool) -> Answer {
                 let unit = unit.to_owned();
                 (format!("frequency-{}", i + 1), Ok(Valued { value, error, unit, varies: false }))
             };
+            let units = (1..=found.len()).map(|number| (format!("frequency-{number}"), unit.to_owned()));
             Answer {
                 status: "finished".to_owned(),
+                units: units.collect(),
                 errors: if own { "of rounding" } else { "by a finer mesh" }.to_owned(),
                 values: found.into_iter().enumerate().map(valued).collect(),
                 ..Answer::default()
@@ -302,7 +315,7 @@ fn frequencies(found: Found, own: bool) -> Answer {
 }
 
 /// The unit of time of frequencies \[s\], and a speed \[rad/s\]: a pure number is over that unit.
-fn scale(unit: Option<&toml::Value>, speed: &toml::Value) -> Result<(Option<f64>, f64), String> {
+pub fn scale(unit: Option<&toml::Value>, speed: &toml::Value) -> Result<(Option<f64>, f64), String> {
     let number = |value: &toml::Value, measure: &units::Measure| match value {
         toml::Value::Integer(number) => Ok(*number as f64),
         toml::Value::Float(number) => Ok(*number),

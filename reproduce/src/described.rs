@@ -64,6 +64,29 @@ pub struct Item {
     pub table: Option<Table>,
     #[serde(default, rename = "claim")]
     pub claims: Vec<Claim>,
+    /// The lines of its file.
+    #[serde(skip)]
+    pub lines: Lines,
+}
+
+/// Where the parts of an item stand in its file, in lines from 1.
+#[derive(Clone, Debug, Default)]
+pub struct Lines {
+    /// Of each run: its name, its changes, those of the run with which it is compared.
+    pub runs: Vec<(usize, Vec<usize>, Vec<usize>)>,
+    /// Of the rule of each claim.
+    pub claims: Vec<usize>,
+    /// Of each column of the table.
+    pub columns: Vec<usize>,
+    /// The text of the file.
+    pub text: String,
+}
+
+impl Lines {
+    /// The first line in which some words stand.
+    pub fn of(&self, words: &str) -> Option<usize> {
+        self.text.lines().position(|line| line.contains(words)).map(|line| line + 1)
+    }
 }
 
 /// Runs, one for every combination of the values of `each`.
@@ -78,6 +101,9 @@ pub struct Template {
     pub each: BTreeMap<String, Vec<toml::Value>>,
     pub against: Option<Vec<String>>,
     pub seconds: Option<f64>,
+    /// Whether its case may be refused, since that is what is asked.
+    #[serde(default)]
+    pub refused: bool,
     pub modes: Option<OfModes>,
     pub strain_energy: Option<OfEnergy>,
 }
@@ -198,6 +224,9 @@ pub struct Column {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Claim {
     pub text: String,
+    /// Whether it is ours, and not the paper's.
+    #[serde(default)]
+    pub ours: bool,
     pub place: Option<String>,
     pub value: Option<String>,
     pub rule: Rule,

@@ -73,10 +73,12 @@ fn panel(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
         Some(x) => over(item, plot, x, answers),
     };
     if let Some(label) = &plot.label {
-        panel.y.quantity.clone_from(label);
         // A label may have its unit in it.
-        if label.ends_with(']') {
-            panel.y.unit.clear();
+        match label.strip_suffix(']').and_then(|label| label.rsplit_once(" [")) {
+            Some((quantity, unit)) => {
+                (panel.y.quantity, panel.y.unit) = (quantity.to_owned(), unit.to_owned())
+            }
+            None => panel.y.quantity.clone_from(label),
         }
     }
     if plot.log {
@@ -87,7 +89,75 @@ fn panel(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
         outside: true,
         ..Words::default()
     }));
+    shorten(&mut panel);
     panel
+}
+
+/// The endings of quantities in words.
+const ENDINGS: [(&str, &str); 13] = [
+    (".time-of-min", "time of the smallest"),
+    (".time-of-max", "time of the largest"),
+    (".min", "smallest"),
+    (".max", "largest"),
+    (".final", "last"),
+    (".amplitude", "amplitude"),
+    (".middle", "middle"),
+    (".largest", "largest absolute"),
+    (".at", "at the time"),
+    (".first-touch", "first touch"),
+    (".impulse", "impulse"),
+    (".impacts", "impacts"),
+    (".loss", "energy lost in impacts"),
+];
+
+/// A quantity in words: `Tip deflection, amplitude, 15 to 20 s`.
+pub fn in_words(quantity: &str) -> String {
+    let (name, times) =
+        quantity.split_once('@').map_or((quantity, None), |(name, times)| (name, Some(times)));
+    let ending = ENDINGS.iter().find_map(|(end, words)| Some((name.strip_suffix(end)?, *words)));
+    let (name, ending) = ending.map_or((name, String::new()), |(name, words)| (name, format!(", {words}")));
+    let named =
+        if name.is_empty() { String::new() } else { Axis::of_column(&name.replace('-', " "), "").quantity };
+    let times = times.map_or(String::new(), |times| match times.split_once("..") {
+        Some(("", to)) => format!(", until {to} s"),
+        Some((from, "")) => format!(", from {from} s on"),
+        Some((from, to)) => format!(", {from} to {to} s"),
+        None => format!(", {times} s"),
+    });
+    format!("{named}{ending}{times}")
+}
+
+/// Takes what all names of a panel have in common from them, and into its heading where it does not stand there.
+fn shorten(panel: &mut Panel) {
+    let names: Vec<Vec<String>> = panel
+        .series
+        .iter()
+        .filter_map(|series| series.name.as_ref())
+        .map(|name| name.split(", ").map(str::to_owned).collect())
+        .collect();
+    let Some(first) = names.first().filter(|_| names.len() > 1) else { return };
+    let common: Vec<String> =
+        first.iter().filter(|part| names.iter().all(|name| name.contains(part))).cloned().collect();
+    if common.is_empty() || names.iter().any(|name| name.len() <= common.len()) {
+        return;
+    }
+    for (series, name) in panel.series.iter_mut().filter(|series| series.name.is_some()).zip(&names) {
+        let own: Vec<&str> = name.iter().filter(|part| !common.contains(part)).map(String::as_str).collect();
+        series.name = Some(own.join(", "));
+    }
+    match panel.words.first_mut() {
+        Some(heading) => {
+            let missing: Vec<&str> = common
+                .iter()
+                .map(String::as_str)
+                .filter(|part| !heading.text.split(", ").any(|there| there == *part))
+                .collect();
+            if !missing.is_empty() {
+                heading.text = format!("{}, {}", heading.text, missing.join(", "));
+            }
+        }
+        None => panel.words.push(Words { text: common.join(", "), outside: true, ..Words::default() }),
+    }
 }
 
 fn over_time(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
@@ -121,7 +191,7 @@ fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
     for (run, number) in points(item, plot, answers) {
         let Some(at) = run.of.get(x).and_then(value_of) else { continue };
         let (mut name, label) = without(&run, x);
-        panel.x.quantity = label.unwrap_or_else(|| x.to_owned());
+        panel.x.quantity = label.unwrap_or_else(|| capitalised(&x.replace(['-', '_'], " ")));
         if name.is_empty() {
             let others = run.of.iter().filter(|(key, _)| *key != x);
             name = others.map(|(_, value)| plain(value)).collect::<Vec<_>>().join(", ");
@@ -139,10 +209,11 @@ fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
         groups[group].1.push((at, factor * number.value));
         groups[group].2.push(number.error.map_or(f64::NAN, |error| factor * error));
     }
+    let words = in_words(&plot.y);
     let quantity = match plot.compared {
-        Some(As::RelativeDifference | As::CurveDifference) => format!("{}, difference", plot.y),
-        Some(As::Ratio) => format!("{}, ratio", plot.y),
-        _ => plot.y.clone(),
+        Some(As::RelativeDifference | As::CurveDifference) => format!("{words}, difference"),
+        Some(As::Ratio) => format!("{words}, ratio"),
+        _ => words,
     };
     panel.y = Axis::new(quantity, unit);
     let alone = groups.len() == 1;
@@ -161,6 +232,11 @@ fn without(run: &Named, x: &str) -> (String, Option<String>) {
         run.pattern.split(", ").partition(|part| part.contains(&key));
     let label = with.first().map(|part| part.replace(&key, "").trim_matches([' ', '=']).to_owned());
     (crate::need::filled(&others.join(", "), &run.of), label.filter(|label| !label.is_empty()))
+}
+
+fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 fn value_of(value: &toml::Value) -> Option<f64> {

@@ -41,6 +41,10 @@ pub struct Named {
     pub key: Key,
     /// The values of `each` that it is of.
     pub of: BTreeMap<String, toml::Value>,
+    /// Its number among the runs as they are written.
+    pub template: usize,
+    /// Whether its case may be refused.
+    pub refused: bool,
     /// How long it takes, where that is long \[s\].
     pub seconds: Option<f64>,
     /// Its frequencies.
@@ -52,6 +56,8 @@ pub struct Named {
 /// What is needed of a run.
 #[derive(Clone, Debug)]
 pub struct Need {
+    /// The first item that needs it.
+    pub item: String,
     /// The run.
     pub run: Named,
     /// Its quantities.
@@ -75,13 +81,15 @@ pub fn needs<'a>(
             let (quantities, columns) = (of(&quantities), of(&columns));
             let number = needs.iter().position(|need| need.run.key == run.key);
             let number = number.unwrap_or_else(|| {
-                needs.push(Need { run: run.clone(), quantities: BTreeSet::new(), columns: BTreeSet::new() });
+                let (quantities, columns) = (BTreeSet::new(), BTreeSet::new());
+                needs.push(Need { item: id.clone(), run: run.clone(), quantities, columns });
                 needs.len() - 1
             });
             let need = &mut needs[number];
             need.quantities.extend(quantities);
             need.columns.extend(columns);
             need.run.seconds = need.run.seconds.or(run.seconds);
+            need.run.refused |= run.refused;
             numbers.insert((id.clone(), run.name), number);
         }
     }
@@ -90,7 +98,7 @@ pub fn needs<'a>(
 
 /// The runs of an item.
 pub fn runs(item: &Item) -> Vec<Named> {
-    item.runs.iter().flat_map(expanded).collect()
+    item.runs.iter().enumerate().flat_map(|(number, template)| expanded(number, template)).collect()
 }
 
 /// The names of the runs that are meant: all where none are named.
@@ -98,7 +106,7 @@ pub fn named(item: &Item, names: Option<&Vec<String>>) -> Vec<String> {
     names.cloned().unwrap_or_else(|| runs(item).into_iter().map(|run| run.name).collect())
 }
 
-fn expanded(template: &Template) -> Vec<Named> {
+fn expanded(number: usize, template: &Template) -> Vec<Named> {
     let mut all: Vec<BTreeMap<String, toml::Value>> = vec![BTreeMap::new()];
     for (key, values) in &template.each {
         all = all
@@ -142,6 +150,8 @@ fn expanded(template: &Template) -> Vec<Named> {
                 name: fill(&template.name),
                 pattern: template.name.clone(),
                 key,
+                template: number,
+                refused: template.refused,
                 seconds: template.seconds,
                 modes,
                 energy,
@@ -169,44 +179,45 @@ type Asked = BTreeSet<(String, String)>;
 /// The quantities and the columns that an item asks of its runs.
 fn asked(item: &Item) -> (Asked, Asked) {
     let (mut quantities, mut columns) = (Asked::new(), Asked::new());
+    for plot in item.plots.iter().filter(|plot| plot.x.is_none()) {
+        columns.extend(named(item, plot.runs.as_ref()).into_iter().map(|run| (run, plot.y.clone())));
+    }
+    for OfRun { run, quantity, to, compared } in terms(item) {
+        let curve = compared == Some(As::CurveDifference);
+        let list = if curve { &mut columns } else { &mut quantities };
+        let what = if curve { crate::term::window(&quantity).0 } else { &quantity };
+        list.extend(std::iter::once(run).chain(to).map(|run| (run, what.to_owned())));
+    }
+    (quantities, columns)
+}
+
+/// The quantities of runs in the plots over what is varied, in the table and in the claims of an item, with what they are compared with.
+pub fn terms(item: &Item) -> Vec<OfRun> {
     let all: BTreeMap<String, BTreeMap<String, toml::Value>> =
         runs(item).into_iter().map(|run| (run.name, run.of)).collect();
+    let none = BTreeMap::new();
     // The run that one is compared with may be named by what the one is of.
-    let partner = |run: &String, to: Option<String>| {
-        let none = BTreeMap::new();
-        to.map(|to| filled(&to, all.get(run).unwrap_or(&none)))
+    let term = |run: String, to: Option<String>, quantity: &String, compared: Option<As>| {
+        let to = to.map(|to| filled(&to, all.get(&run).unwrap_or(&none)));
+        OfRun { run, quantity: quantity.clone(), to, compared }
     };
-    let mut ask = |run: &str, to: Option<&String>, quantity: &str, compared: Option<As>| {
-        let curve = compared == Some(As::CurveDifference);
-        let what = if curve { quantity.split('@').next().unwrap_or(quantity) } else { quantity };
-        for run in std::iter::once(run).chain(to.map(String::as_str)) {
-            let list = if curve { &mut columns } else { &mut quantities };
-            list.insert((run.to_owned(), what.to_owned()));
-        }
-    };
-    for plot in &item.plots {
-        for run in named(item, plot.runs.as_ref()) {
-            match &plot.x {
-                Some(_) => {
-                    let to = partner(&run, plot.to.as_ref().map(plain));
-                    ask(&run, to.as_ref(), &plot.y, plot.compared);
-                }
-                None => ask(&run, None, &plot.y, Some(As::CurveDifference)),
-            }
-        }
+    let mut out = Vec::new();
+    for plot in item.plots.iter().filter(|plot| plot.x.is_some()) {
+        let to = || plot.to.as_ref().filter(|_| plot.compared.is_some()).map(plain);
+        out.extend(
+            named(item, plot.runs.as_ref()).into_iter().map(|run| term(run, to(), &plot.y, plot.compared)),
+        );
     }
     if let Some(table) = &item.table {
         for run in named(item, table.runs.as_ref()) {
-            for column in &table.columns {
-                let to = partner(&run, column.to.clone());
-                ask(&run, to.as_ref(), &column.quantity, column.compared);
-            }
+            let columns = table.columns.iter();
+            out.extend(columns.map(|of| term(run.clone(), of.to.clone(), &of.quantity, of.compared)));
         }
     }
     for claim in &item.claims {
-        of_rule(&claim.rule, &mut |of: &OfRun| ask(&of.run, of.to.as_ref(), &of.quantity, of.compared));
+        of_rule(&claim.rule, &mut |of: &OfRun| out.push(of.clone()));
     }
-    (quantities, columns)
+    out
 }
 
 /// Whether what a rule gives may differ from run to run, as times of computing do.

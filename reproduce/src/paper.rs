@@ -1,6 +1,6 @@
 //! Reading a paper: from the program, or from a folder.
 
-use crate::described::{Described, Item, ItemKind, Paper};
+use crate::described::{Described, Item, ItemKind, Lines, Paper};
 use include_dir::{Dir, include_dir};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -89,6 +89,7 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
     for item in &paper.items {
         let file = format!("{item}.toml");
         let Some(mut read) = parsed::<Item>(place, &file, files, &mut problems) else { continue };
+        read.lines = files.get(&file).map(|text| lines(text)).unwrap_or_default();
         if read.kind == ItemKind::Drawing {
             read.drawing.get_or_insert_with(|| format!("{item}.svg"));
         }
@@ -146,5 +147,45 @@ fn parsed<T: serde::de::DeserializeOwned>(
             problems.push(format!("{place}/{file}: {}", error.to_string().trim_end()));
             None
         }
+    }
+}
+
+/// Where things stand in the file of an item.
+fn lines(text: &str) -> Lines {
+    use toml::Spanned;
+    #[derive(serde::Deserialize, Default)]
+    struct Places {
+        #[serde(default, rename = "run")]
+        runs: Vec<OfRun>,
+        #[serde(default, rename = "claim")]
+        claims: Vec<OfClaim>,
+        table: Option<OfTable>,
+    }
+    #[derive(serde::Deserialize)]
+    struct OfRun {
+        name: Spanned<String>,
+        #[serde(default)]
+        set: Vec<Spanned<String>>,
+        #[serde(default)]
+        against: Vec<Spanned<String>>,
+    }
+    #[derive(serde::Deserialize)]
+    struct OfClaim {
+        rule: Spanned<toml::Table>,
+    }
+    #[derive(serde::Deserialize)]
+    struct OfTable {
+        columns: Vec<Spanned<toml::Table>>,
+    }
+    let of = |at: usize| text.get(..at).map_or(1, |before| before.matches('\n').count() + 1);
+    let all = |list: &[Spanned<String>]| list.iter().map(|text| of(text.span().start)).collect::<Vec<_>>();
+    let places: Places = toml::from_str(text).unwrap_or_default();
+    let runs = places.runs.iter();
+    let columns = places.table.iter().flat_map(|table| &table.columns);
+    Lines {
+        runs: runs.map(|run| (of(run.name.span().start), all(&run.set), all(&run.against))).collect(),
+        claims: places.claims.iter().map(|claim| of(claim.rule.span().start)).collect(),
+        columns: columns.map(|column| of(column.span().start)).collect(),
+        text: text.to_owned(),
     }
 }

@@ -14,6 +14,9 @@ use crate::verdict::{Verdict, judged};
 use flexion_results::{OutputError, VERSION, write_file};
 use std::path::{Path, PathBuf};
 
+/// Rows beyond which a table scrolls, and columns beyond which it lies across on paper.
+const LONG: usize = 16;
+const BROAD: usize = 6;
 /// Widths of figures with several panels and with one [mm].
 const WIDE: f64 = 240.0;
 const NARROW: f64 = 150.0;
@@ -42,6 +45,48 @@ impl Reproduced<'_> {
             item.claims.iter().map(|claim| (id.to_owned(), judged(claim, &answers))).collect::<Vec<_>>()
         };
         self.each().flat_map(of).collect()
+    }
+
+    /// What came out, in numbers.
+    pub fn counts(&self) -> Counts {
+        let mut out = Counts::default();
+        for (_, item, answers) in self.each() {
+            out.results += usize::from(item.kind != ItemKind::Drawing);
+            for claim in &item.claims {
+                let of = if claim.ours { &mut out.ours } else { &mut out.paper };
+                let word = judged(claim, &answers).word();
+                for (count, _) in of.iter_mut().zip(WORDS).filter(|(_, other)| *other == word) {
+                    *count += 1;
+                }
+            }
+        }
+        out
+    }
+}
+
+/// Verdicts in numbers, in the order of [`Counts::NAMES`]: those on the claims of papers, and those on claims of ours beside them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Figures and tables that are no drawings.
+    pub results: usize,
+    /// Claims of the paper.
+    pub paper: [usize; 5],
+    /// Claims of ours.
+    pub ours: [usize; 5],
+}
+
+impl Counts {
+    /// What is counted.
+    pub const NAMES: [&str; 5] = ["holds", "does not hold", "not decided", "lost", "not run"];
+
+    /// The sum of both.
+    pub fn plus(self, other: Counts) -> Counts {
+        let sum = |a: [usize; 5], b: [usize; 5]| std::array::from_fn(|i| a[i] + b[i]);
+        Counts {
+            results: self.results + other.results,
+            paper: sum(self.paper, other.paper),
+            ours: sum(self.ours, other.ours),
+        }
     }
 }
 
@@ -79,7 +124,9 @@ fn csv(rows: impl Iterator<Item = Vec<String>>) -> String {
 }
 
 fn claims_table(papers: &[Reproduced<'_>]) -> String {
-    let head = ["paper", "item", "claim", "place", "printed", "verdict", "ours"].map(String::from).to_vec();
+    let head = ["paper", "item", "whose", "claim", "place", "printed", "verdict", "found"]
+        .map(String::from)
+        .to_vec();
     let mut rows = vec![head];
     for paper in papers {
         for (id, item, answers) in paper.each() {
@@ -88,6 +135,7 @@ fn claims_table(papers: &[Reproduced<'_>]) -> String {
                 rows.push(vec![
                     paper.paper.name.clone(),
                     id.to_owned(),
+                    if claim.ours { "ours" } else { "the paper's" }.to_owned(),
                     claim.text.clone(),
                     claim.place.clone().unwrap_or_default(),
                     claim.value.clone().unwrap_or_default(),
@@ -167,7 +215,7 @@ fn page(papers: &[Reproduced<'_>]) -> String {
     contents(papers, &mut out);
     for paper in papers {
         let Described { name, paper: of, .. } = paper.paper;
-        out.raw("<section class=paper>")
+        out.raw(&format!("<section class=paper data-paper=\"{}\">", anchor(name)))
             .element(&format!("h2 id=\"{}\"", anchor(name)), &format!("{name}. {}", of.title));
         out.raw("<p class=source>").text(&format!("{}. {}.", of.authors, of.source));
         if let Some(doi) = &of.doi {
@@ -198,30 +246,76 @@ fn anchor(text: &str) -> String {
 
 const WORDS: [&str; 5] = ["holds", "fails", "undecided", "lost", "not-run"];
 
-/// What came out, paper by paper, and all claims in one table.
+/// What came out, paper by paper, what may be shown of it, and where everything stands.
 fn contents(papers: &[Reproduced<'_>], out: &mut Html) {
-    out.raw("<section id=summary><h2>What came out</h2><div class=wide><table class=sortable><thead><tr><th>Paper<th>Holds<th>Does not hold<th>Not decided<th>Lost<th>Not run</tr></thead><tbody>");
-    for paper in papers {
-        let verdicts = paper.verdicts();
-        let Described { name, paper: of, .. } = paper.paper;
-        out.raw("<tr><td>")
-            .element(&format!("a href=\"#{}\"", anchor(name)), &format!("{name}. {}", of.title))
-            .raw("</td>");
-        for word in WORDS {
-            let count = verdicts.iter().filter(|(_, verdict)| verdict.word() == word).count();
-            out.element("td class=number", &count.to_string());
+    out.raw("<section id=summary><h2>What came out</h2><div class=wide><table><thead><tr><th rowspan=2>Paper<th rowspan=2>Results<th colspan=5>Claims of the paper<th colspan=5>Claims of ours, beside it</tr><tr>");
+    for name in Counts::NAMES.iter().chain(&Counts::NAMES) {
+        out.element("th class=count", name);
+    }
+    out.raw("</tr></thead><tbody>");
+    let mut all = Counts::default();
+    let row = |of: &Counts, out: &mut Html| {
+        out.element("td class=number", &of.results.to_string());
+        for count in of.paper.iter().chain(&of.ours) {
+            out.element(
+                if *count == 0 { "td class=\"number none\"" } else { "td class=number" },
+                &count.to_string(),
+            );
         }
         out.raw("</tr>");
+    };
+    for paper in papers {
+        let counts = paper.counts();
+        all = all.plus(counts);
+        let Described { name, paper: of, .. } = paper.paper;
+        out.raw("<tr><td>")
+            .element(&format!("a href=\"#{}\"", anchor(name)), name)
+            .raw(" <span class=title>")
+            .text(&of.title)
+            .raw("</span></td>");
+        row(&counts, out);
     }
-    out.raw("</tbody></table></div><h3>All claims</h3><div class=wide><table class=sortable><thead><tr><th>Item<th>The paper claims<th>Printed<th>Verdict<th>Ours</tr></thead><tbody>");
+    if papers.len() > 1 {
+        out.raw("<tr class=sum><td>All</td>");
+        row(&all, out);
+    }
+    out.raw("</tbody></table></div></section>");
+    filters(papers, out);
+    out.raw("<nav id=contents aria-label=Contents><h2>Contents</h2>");
+    for paper in papers {
+        out.raw(&format!("<div class=of data-paper=\"{}\"><h3>", anchor(&paper.paper.name)))
+            .element(&format!("a href=\"#{}\"", anchor(&paper.paper.name)), &paper.paper.name)
+            .raw("</h3><ul>");
+        for (id, item, answers) in paper.each() {
+            let name = format!("{} {id}", paper.paper.name);
+            out.raw(&format!("<li data-of=\"{}\">", anchor(&name)))
+                .element(&format!("a href=\"#{}\"", anchor(&name)), &format!("{id} {}", item.title));
+            for (i, claim) in item.claims.iter().enumerate() {
+                let verdict = judged(claim, &answers);
+                out.raw(&format!(
+                    " <a class=\"dot {}\" href=\"#{}-{}\" title=\"{}: {}\">{}</a>",
+                    verdict.word(),
+                    anchor(&name),
+                    i + 1,
+                    crate::html::escaped(verdict.name()),
+                    crate::html::escaped(&claim.text),
+                    sign(&verdict)
+                ));
+            }
+            out.raw("</li>");
+        }
+        out.raw("</ul></div>");
+    }
+    out.raw("</nav><section id=claims><h2>All claims</h2><div class=\"wide long\"><table class=sortable><thead><tr><th>Item<th>Whose<th>Claim<th>Printed<th>Verdict<th>Found</tr></thead><tbody>");
     for paper in papers {
         for (id, item, answers) in paper.each() {
             for (i, claim) in item.claims.iter().enumerate() {
                 let verdict = judged(claim, &answers);
                 let name = format!("{} {id}", paper.paper.name);
-                out.raw("<tr><td>")
+                out.raw(&format!("<tr{}><td>", marks(&paper.paper.name, claim, &verdict)))
                     .element(&format!("a href=\"#{}-{}\"", anchor(&name), i + 1), &name)
                     .raw("</td>");
+                out.element("td", if claim.ours { "ours" } else { "the paper’s" });
                 out.element("td", &claim.text).element("td", claim.value.as_deref().unwrap_or(""));
                 badge(&verdict, "td", out);
                 out.element("td", &verdict.sentence).raw("</tr>");
@@ -229,6 +323,46 @@ fn contents(papers: &[Reproduced<'_>], out: &mut Html) {
         }
     }
     out.raw("</tbody></table></div></section>");
+}
+
+/// Boxes that say which claims are shown.
+fn filters(papers: &[Reproduced<'_>], out: &mut Html) {
+    let boxes = |title: &str, kind: &str, all: &[(String, String)], out: &mut Html| {
+        out.raw(&format!("<fieldset><legend>{title}</legend>"));
+        for (value, name) in all {
+            out.raw(&format!("<label><input type=checkbox checked data-{kind}=\"{value}\"> "))
+                .text(name)
+                .raw("</label>");
+        }
+        out.raw("</fieldset>");
+    };
+    let words: Vec<(String, String)> =
+        WORDS.iter().zip(Counts::NAMES).map(|(word, name)| ((*word).to_owned(), name.to_owned())).collect();
+    let of: Vec<(String, String)> =
+        papers.iter().map(|paper| (anchor(&paper.paper.name), paper.paper.name.clone())).collect();
+    let whose = [("paper".to_owned(), "the paper’s".to_owned()), ("ours".to_owned(), "ours".to_owned())];
+    out.raw("<form id=filter hidden><span>Show</span>");
+    boxes("Verdict", "verdict", &words, out);
+    boxes("Claims", "whose", &whose, out);
+    boxes("Paper", "paper", &of, out);
+    out.raw("<output id=shown></output></form>");
+}
+
+/// What the filter asks of a claim.
+fn marks(paper: &str, claim: &crate::described::Claim, verdict: &Verdict) -> String {
+    let whose = if claim.ours { "ours" } else { "paper" };
+    format!(" data-paper=\"{}\" data-verdict=\"{}\" data-whose={whose}", anchor(paper), verdict.word())
+}
+
+/// A sign for a verdict, which says it without colour.
+fn sign(verdict: &Verdict) -> &'static str {
+    match verdict.ruled {
+        Ruled::Holds => "✓",
+        Ruled::Fails => "✗",
+        Ruled::Undecided(_) => "?",
+        Ruled::Lost(_) => "–",
+        Ruled::NotRun(_) => "…",
+    }
 }
 
 fn badge(verdict: &Verdict, element: &str, out: &mut Html) {
@@ -248,8 +382,9 @@ fn item_section(
     let name = format!("{paper} {id}");
     let number = id.trim_start_matches(|letter: char| letter.is_alphabetic());
     let kind = if item.kind == ItemKind::Table { "Table" } else { "Figure" };
-    out.raw(&format!("<article id=\"{}\">", anchor(&name)));
-    out.element("h3", &format!("{paper}, {} {number}: {}", kind.to_lowercase(), item.title));
+    out.raw(&format!("<article id=\"{}\" data-paper=\"{}\"><h3>", anchor(&name), anchor(paper)))
+        .text(&format!("{paper}, {} {number}: {}", kind.to_lowercase(), item.title))
+        .raw(" <a class=up href=\"#contents\" title=\"Contents\">↑</a></h3>");
     for (what, text) in [("Of the paper: ", &item.survives), ("Chosen: ", &item.chosen)] {
         if let Some(text) = text {
             out.raw("<p class=note><strong>").text(what).raw("</strong>").text(text).raw("</p>");
@@ -281,15 +416,18 @@ fn item_section(
         out.raw("<div class=claims>");
         for (i, claim) in item.claims.iter().enumerate() {
             let verdict = judged(claim, answers);
-            out.raw(&format!("<div class=claim id=\"{}-{}\"><p>", anchor(&name), i + 1));
+            let whose = if claim.ours { " ours" } else { "" };
+            let marks = marks(paper, claim, &verdict);
+            out.raw(&format!("<div class=\"claim{whose}\" id=\"{}-{}\"{marks}><p>", anchor(&name), i + 1));
             badge(&verdict, "span", out);
-            out.raw(" ").text(&claim.text);
+            out.raw(if claim.ours { " <span class=whose>Ours, beside the paper:</span> " } else { " " });
+            out.text(&claim.text);
             let place = [claim.place.clone(), claim.value.as_ref().map(|value| format!("printed: {value}"))];
             let place: Vec<String> = place.into_iter().flatten().collect();
             if !place.is_empty() {
                 out.raw(" ").element("span class=place", &format!("({})", place.join("; ")));
             }
-            out.raw("</p>").element("p class=ours", &verdict.sentence);
+            out.raw("</p>").element("p class=found", &verdict.sentence);
             if let Ruled::Undecided(why) = &verdict.ruled
                 && !verdict.sentence.to_lowercase().contains(&why.to_lowercase())
             {
@@ -314,7 +452,10 @@ fn picture(svg: &str) -> String {
 
 fn table(item: &Item, answers: &Answers<'_>, name: &str, out: &mut Html) {
     let Some(table) = filled(item, answers) else { return };
-    out.raw("<div class=wide><table class=sortable><thead><tr><th>Run");
+    // A long table scrolls, a broad one lies across on paper.
+    let size = [(table.rows.len() > LONG, " long"), (table.titles.len() > BROAD, " broad")];
+    let size: String = size.into_iter().filter(|(is, _)| *is).map(|(_, word)| word).collect();
+    out.raw(&format!("<div class=\"wide{size}\"><table class=sortable><thead><tr><th>Run"));
     for title in &table.titles {
         out.raw("<th>").text(title);
     }

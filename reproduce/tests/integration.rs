@@ -4,7 +4,7 @@
 
 use flexion_reproduce::{
     Answer, Described, Options, Reproduced, Stopped, built_in, built_in_names, check, compute, expected,
-    from_folder, of_paper, write,
+    from_folder, of_paper, sound, write,
 };
 use std::path::Path;
 
@@ -329,4 +329,157 @@ fn everything_wrong_with_a_paper_is_said_at_once() {
         "{message}"
     );
     assert!(built_in("P9").unwrap_err().to_string().contains("P1, P2, P3, P4, P5"));
+}
+
+/// What a run of a paper cannot be is said before any is computed, at its line, with the nearest name; a refusal that is asked for is none.
+#[test]
+fn what_runs_cannot_be_is_rejected_at_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let found = |item: &str| {
+        let paper = paper_of(folder.path(), item);
+        match sound(&paper, &["F1".to_owned()], &Options::default()) {
+            Ok(()) => String::new(),
+            Err(error) => error.to_string(),
+        }
+    };
+    let line = |item: &str, words: &str| {
+        let line = item.lines().position(|line| line.contains(words)).unwrap() + 1;
+        format!("F1.toml:{line}: ")
+    };
+    assert_eq!(found(RUNS), "");
+    let many = "axial=4,transverse=4}";
+    let claim = |rule: &str| format!("{RUNS}[[claim]]\ntext = 'T'\nrule = {rule}\n");
+    let refused = "basis={kind=\"radial\",nodes=11,shape=8}";
+    let own = "basis={kind=\"modes\",axial=4,transverse=4}";
+    let cases = [
+        (RUNS.replace(many, "axial=4,transvers=4}"), "transvers=4", "transverse"),
+        (RUNS.replace("\"modes\",axial=4", "\"mods\",axial=4"), "\"mods\"", "`modes`"),
+        (
+            RUNS.replace(
+                "duration=6 s', 'basis={kind=\"modes\",axial=4",
+                "duration=6 m', 'basis={kind=\"modes\",axial=4",
+            ),
+            "6 m'",
+            "run.duration",
+        ),
+        (RUNS.replace(own, refused), "shape=8", "refused = true"),
+        (
+            RUNS.replace("y = 'tip.deflection'", "y = 'tip.deflektion'"),
+            "deflektion",
+            "perhaps `tip.deflection`",
+        ),
+        (
+            RUNS.replace("quantity = 'tip.deflection.min'", "quantity = 'tip.deflection.mini'"),
+            "mini",
+            "tip.deflection",
+        ),
+        (RUNS.replace("unit = 'mm'", "unit = 'rad'"), "unit = 'rad'", "rad"),
+        (
+            claim(
+                "{ kind = 'less', left = { run = 'few', quantity = 'tip.deflection.min' }, right = { run = 'many', quantity = 'run.end' } }",
+            ),
+            "kind = 'less'",
+            "in `m`, with run.end of `many`, in `s`",
+        ),
+        (
+            claim(
+                "{ kind = 'all', rules = [{ kind = 'less', left = { run = 'few', quantity = 'tip.deflection.min' }, right = { run = 'many', quantity = 'tip.deflection.min', to = 'few', as = 'ratio' } }] }",
+            ),
+            "kind = 'all'",
+            "pure numbers",
+        ),
+    ];
+    for (item, words, said) in cases {
+        let message = found(&item);
+        assert!(message.contains(&line(&item, words)) && message.contains(said), "{words}: {message}");
+    }
+    // A misspelt key is never what is asked.
+    let asked = |set: &str| RUNS.replace(own, set).replace("name = 'many'", "name = 'many'\nrefused = true");
+    assert_eq!(found(&asked(refused)), "");
+    assert!(found(&asked("basis={kind=\"radal\",nodes=11}")).contains("radial"));
+    let many_wrong = RUNS.replace(many, "axial=4,transvers=4}").replace("axial=2", "axal=2");
+    assert_eq!(found(&many_wrong).lines().filter(|line| line.contains("unknown key")).count(), 2);
+}
+
+/// Claims of ours are counted beside those of the paper.
+#[test]
+fn claims_of_ours_are_counted_apart() {
+    let rule = "rule = { kind = 'less', left = 1, right = 2 }\n";
+    let lost = "rule = { kind = 'lost', because = 'B' }\n";
+    let item = format!(
+        "{RUNS}[[claim]]\ntext = 'T'\n{rule}[[claim]]\ntext = 'T'\n{lost}[[claim]]\nours = true\ntext = 'U'\n{rule}"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let paper = paper_of(folder.path(), &item);
+    let answers = vec![None; of_paper(&paper).0.len()];
+    let reproduced = Reproduced { paper: &paper, answers: &answers, items: vec!["F1".to_owned()] };
+    let counts = reproduced.counts();
+    assert_eq!((counts.results, counts.paper, counts.ours), (1, [1, 0, 0, 1, 0], [1, 0, 0, 0, 0]));
+    let files = write(&[reproduced], folder.path()).unwrap();
+    let report = std::fs::read_to_string(files.last().unwrap()).unwrap();
+    assert!(report.contains("Ours, beside the paper:") && report.matches("data-whose=ours").count() == 2);
+    // The five papers say of no claim of theirs that it is ours in words alone.
+    for (name, _) in ITEMS {
+        for (id, item) in &built_in(name).unwrap().items {
+            let marked = item.claims.iter().all(|claim| claim.ours || !claim.text.starts_with("Ours"));
+            assert!(marked, "{name} {id}");
+        }
+    }
+}
+
+/// Differences of curves are held as values are.
+#[test]
+fn a_changed_curve_fails_the_check() {
+    let folder = tempfile::tempdir().unwrap();
+    let item = format!(
+        "{RUNS}[[claim]]\ntext = 'T'\nrule = {{ kind = 'agree', runs = ['many', 'few'], quantity = 'tip.deflection@..5', within = 0.01, curves = true }}\n"
+    );
+    let mut paper = paper_of(folder.path(), &item);
+    let answers = computed(&paper, &Options::default());
+    let accepted = expected(&paper, &answers);
+    assert!(accepted.contains("F1: few to many | tip.deflection@..5 curve-difference"), "{accepted}");
+    paper.expected = Some(accepted);
+    assert!(check(&paper, &answers).unwrap().failed.is_empty());
+    let mut changed = answers;
+    let curve = changed[0].as_mut().unwrap().curves.get_mut("tip.deflection").unwrap().as_mut().unwrap();
+    curve.y.iter_mut().for_each(|y| *y *= 1.5);
+    let failed = check(&paper, &changed).unwrap().failed;
+    assert!(failed.iter().any(|line| line.contains("curve-difference")), "{failed:?}");
+}
+
+/// The studies of the repository, and the papers, can be computed, but for what time shows.
+#[test]
+fn all_studies_and_papers_are_sound() {
+    let studies = Path::new(env!("CARGO_MANIFEST_DIR")).join("../studies");
+    let mut all: Vec<Described> = built_in_names().iter().map(|name| built_in(name).unwrap()).collect();
+    for folder in std::fs::read_dir(studies).unwrap() {
+        let study = from_folder(&folder.unwrap().path()).unwrap();
+        assert!(
+            study.items.iter().flat_map(|(_, item)| &item.claims).all(|claim| claim.ours),
+            "{}",
+            study.name
+        );
+        all.push(study);
+    }
+    assert_eq!(all.len(), 8);
+    for paper in all {
+        let items: Vec<String> = paper.items.iter().map(|(id, _)| id.clone()).collect();
+        if let Err(error) = sound(&paper, &items, &Options { long: true, ..Options::default() }) {
+            panic!("{}:\n{error}", paper.name);
+        }
+    }
+}
+
+/// A changed case says in its title what was changed.
+#[test]
+fn a_changed_case_says_so_in_its_title() {
+    let folder = tempfile::tempdir().unwrap();
+    let paper = paper_of(folder.path(), RUNS);
+    let answers = computed(&paper, &Options::default());
+    let stated = &answers[0].as_ref().unwrap().stated;
+    let title = stated.lines().find(|line| line.starts_with("title = ")).unwrap();
+    assert!(
+        title.contains(", with run.duration = 6 s, basis = {kind='modes',axial=2,transverse=2}"),
+        "{title}"
+    );
 }

@@ -508,7 +508,7 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
     let of = Arc::clone(&blade);
     let curve: Curve = Arc::new(move |s| {
         let at = bent(s);
-        let (sin, cos) = (twist * s / length + of.resultants(s).twist).sin_cos();
+        let (sin, cos) = libm::sincos(twist * s / length + of.resultants(s).twist);
         let across = at.tangent.cross(at.normal);
         Station { position: start + at.position, normal: cos * at.normal + sin * across, ..at }
     });

@@ -44,7 +44,7 @@ impl Beam {
         if let Some((deck, true)) = &self.section.deck {
             return root * deck.frame(0.0).rotation.transpose();
         }
-        let (sin, cos) = self.blade.resultants(0.0).twist.sin_cos();
+        let (sin, cos) = libm::sincos(self.blade.resultants(0.0).twist);
         let (tangent, height) = (root.column(0), cos * root.column(1) - sin * root.column(2));
         Mat3::columns([height.cross(tangent), height, tangent])
     }
@@ -60,7 +60,7 @@ impl Beam {
             let (e, g) = Line::untwisted(of.rotation.column(0));
             let height = of.rotation.column(1);
             let turns = std::f64::consts::TAU;
-            let twist = height.dot(e).atan2(height.dot(g));
+            let twist = libm::atan2(height.dot(e), height.dot(g));
             last = twist + turns * ((last - twist) / turns).round();
             (of, last)
         };
@@ -160,7 +160,7 @@ impl Beam {
         let has_times = self.section.deck.as_ref().is_some_and(|(deck, _)| deck.damping.is_some());
         let tip = self.twisted(&[0.0, self.length]);
         let is_straight = tip.iter().all(|(of, twist)| {
-            of.position[0].hypot(of.position[1]) <= 1e-9 * self.length && twist.abs() <= 1e-9
+            libm::hypot(of.position[0], of.position[1]) <= 1e-9 * self.length && twist.abs() <= 1e-9
         });
         say(mass > 0.0, "damping in proportion to the mass");
         if straight {

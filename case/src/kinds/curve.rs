@@ -79,7 +79,7 @@ pub static CURVE: Choice<Bent> = Choice {
                     let (axis, radius) = (tangent.cross(side), length / angle);
                     Arc::new(move |s| {
                         let turned = about(s / radius * axis);
-                        let (sin, cos) = (s / radius).sin_cos();
+                        let (sin, cos) = libm::sincos(s / radius);
                         let position = radius * sin * tangent + radius * (1.0 - cos) * side;
                         Station { position, tangent: turned * tangent, normal: turned * normal }
                     })
@@ -94,9 +94,9 @@ pub static CURVE: Choice<Bent> = Choice {
             make: &Of(|Helix { radius, pitch }, _| {
                 Ok(Bent::Along(Box::new(move |_, axis, out| {
                     let (side, rise) = (axis.cross(out), pitch / std::f64::consts::TAU);
-                    let scale = radius.hypot(rise);
+                    let scale = libm::hypot(radius, rise);
                     Arc::new(move |s| {
-                        let (sin, cos) = (s / scale).sin_cos();
+                        let (sin, cos) = libm::sincos(s / scale);
                         let normal = cos * out + sin * side;
                         let along = -sin * out + cos * side;
                         let radial = radius * normal - radius * out;

@@ -2,9 +2,10 @@
 
 use super::Run;
 use crate::reading::Reading;
+#[cfg(feature = "figures")]
 use flexion_results::plot::{Figure, contact_figure, spatial_figure, trajectory_figure};
 use flexion_results::{
-    Attachments, Directory, Integration, OutputError, RunReport, Status, Summary, write_run,
+    Attachments, Directory, Integration, OutputError, RunReport, Status, Summary, view_run, write_run,
 };
 
 impl Reading {
@@ -15,6 +16,7 @@ impl Reading {
     }
 
     /// The figure of a run of this case: its principal columns, and the contacts and views that it has.
+    #[cfg(feature = "figures")]
     pub fn figure(&self, run: &Run) -> Figure {
         let title = self.title();
         match &run.events {
@@ -26,16 +28,31 @@ impl Reading {
         }
     }
 
+    /// A run of this case as a page plays it, with the usual columns.
+    pub fn view(&self, run: &Run) -> serde_json::Value {
+        let mut scene = serde_json::Map::new();
+        // To a page nothing is refused.
+        let _ = run.scene.put(&mut scene);
+        let title = self.case.title.as_str();
+        let error = |column: usize| run.error_in_time(column);
+        view_run((title, title), run.message.as_deref(), &run.trajectory, scene, &[], &error)
+            .unwrap_or_default()
+    }
+
     /// Writes the results of a run of this case and publishes them.
     ///
     /// # Errors
     /// [`OutputError`] for whatever goes wrong on disk or in drawing.
     pub fn write(&self, run: &Run, directory: &Directory) -> Result<Status, OutputError> {
         let identity = self.identity();
-        // Of a beam at one time there is nothing to be drawn against it.
-        let moves = run.trajectory.times().len() > 1 || self.case.space().is_some();
-        let figure = (self.case.output.plots && moves).then(|| self.figure(run));
+        #[cfg(feature = "figures")]
+        let figure = {
+            // Of a beam at one time there is nothing to be drawn against it.
+            let moves = run.trajectory.times().len() > 1 || self.case.space().is_some();
+            (self.case.output.plots && moves).then(|| self.figure(run))
+        };
         let attachments = Attachments {
+            #[cfg(feature = "figures")]
             figure: figure.as_ref(),
             tables: &run.tables,
             // What laws of a program remember is in no file.

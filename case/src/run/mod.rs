@@ -53,7 +53,12 @@ pub struct Prepared {
     limits: Vec<contact::Limit>,
     /// Time that this took \[s\], and that of the processor.
     taken: (f64, Option<f64>),
+    /// Who is shown the records.
+    shown: Option<Shown>,
 }
+
+/// Is shown the time \[s\] of a record, and the values of the system's own columns, which are the first.
+pub type Shown = Box<dyn FnMut(f64, &[f64])>;
 
 /// What a run gave.
 #[derive(Clone, Debug)]
@@ -110,6 +115,19 @@ impl From<Run> for Record {
 }
 
 impl Run {
+    /// The estimated error of a column at every record, S |y − y_f| with the finer run; NaN where that has ended, `None` where none is known.
+    pub fn error_in_time(&self, column: usize) -> Option<Vec<f64>> {
+        let errors = self.errors.as_ref().filter(|errors| !errors.finer.is_empty())?;
+        let finer = &errors.finer;
+        let (of, name) = (&self.record.trajectory, &self.record.trajectory.channels().get(column)?.name);
+        let (theirs, end) = (finer.index(name)?, finer.times().last().copied()?);
+        let off = |(t, y): (&f64, f64)| {
+            let there = finer.at(theirs, *t).filter(|_| *t <= end);
+            there.map_or(f64::NAN, |other| errors.safety * (y - other).abs())
+        };
+        Some(of.times().iter().zip(of.values(column)).map(off).collect())
+    }
+
     /// What its reader should know: of the model, of its steps and of its errors.
     pub fn all_warnings(&self) -> impl Iterator<Item = &str> {
         let estimates = self.errors.iter().flat_map(|errors| &errors.warnings);
@@ -186,6 +204,7 @@ impl Reading {
             warnings,
             limits: self.limits(),
             taken: clock.elapsed(),
+            shown: None,
         })
     }
 
@@ -226,8 +245,9 @@ impl Reading {
                             rotation.and_then(|rotation| rotation.turning(space.multibody.model(), state));
                         let (turning, unsteady) = turning.map_err(|why| self.problem("initial.kind", why))?;
                         warning = unsteady;
-                        state.q.copy_from_slice(&turning.q);
-                        state.v.copy_from_slice(&turning.v);
+                        // States of laws stand behind those of the model.
+                        state.q[..turning.q.len()].copy_from_slice(&turning.q);
+                        state.v[..turning.v.len()].copy_from_slice(&turning.v);
                     }
                     None => warning = self.turning(system, state, watch)?,
                 }
@@ -287,6 +307,8 @@ impl Reading {
             Ok(None) if self.case.hub_beam().is_some_and(|beam| beam.load_changes(revolution)) => {
                 Err(NoPeriodicMotion::Changing)
             }
+            // Laws have states.
+            Ok(None) if mean.size() != system.size() => Err(NoPeriodicMotion::Changing),
             // Contacts may be closed.
             Ok(None) if !self.case.has_contacts() => {
                 mean.hold(true);
@@ -301,8 +323,8 @@ impl Reading {
         if periodic.is_err() {
             return Ok(self.equilibrium(system, state, watch)?.or(Some(said)));
         }
-        state.q.copy_from_slice(&at.q);
-        state.v.copy_from_slice(&at.v);
+        state.q[..at.q.len()].copy_from_slice(&at.q);
+        state.v[..at.v.len()].copy_from_slice(&at.v);
         Ok(Some(said))
     }
 
@@ -363,6 +385,11 @@ impl Prepared {
         recorder.channels().to_vec()
     }
 
+    /// The same that shows its records while it runs; they are computed once more for that.
+    pub fn with_shown(self, shown: Shown) -> Prepared {
+        Prepared { shown: Some(shown), ..self }
+    }
+
     /// The same without shapes and scene, for those who look at the columns alone.
     pub fn without_pictures(self) -> Prepared {
         Prepared { shapes: None, scene: Scene::default(), ..self }
@@ -384,12 +411,19 @@ impl Prepared {
             mut warnings,
             limits,
             taken,
+            mut shown,
         } = self;
         let Live { mut system, integrator } = live;
         let clock = Clock::start();
+        let mut row = Vec::new();
         let mut pictures = |system: &mut dyn System, state: &State| {
             shapes.iter_mut().for_each(|shapes| shapes.sample(system, state));
             scene.sample(system, state);
+            if let Some(shown) = &mut shown {
+                row.resize(system.channels().len(), 0.0);
+                system.record(state, &mut row);
+                shown(state.t, &row);
+            }
         };
         let columns = Columns { energy_balance, modal_shares };
         let mut recorder = Recorder::new(system.as_mut(), &state, &plan, columns)

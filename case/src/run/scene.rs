@@ -9,6 +9,7 @@ use crate::space::Space;
 use flexion::hub_beam::Mount;
 use flexion::multibody::{self, Body, Marker};
 use flexion::section::Shape;
+#[cfg(feature = "figures")]
 use flexion_results::plot::Blade;
 use flexion_results::{Contour, Drawn, Part, Scene, Spring};
 use std::sync::Arc;
@@ -16,6 +17,7 @@ use std::sync::Arc;
 /// Length over height of a beam drawn without knowing its height.
 const SLENDERNESS: f64 = 50.0;
 /// Equal intervals between the sections of a blade that are drawn, beside those at which it breaks.
+#[cfg(feature = "figures")]
 const SECTIONS: usize = 40;
 /// Least edge of the box of a body over its largest.
 const THINNEST: f64 = 0.02;
@@ -119,6 +121,7 @@ impl Space {
     }
 
     /// Its blades, as they are drawn.
+    #[cfg(feature = "figures")]
     pub fn blades(&self) -> Vec<Blade> {
         let blade = |beam: &Beam| {
             let mut stations: Vec<f64> =

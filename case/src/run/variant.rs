@@ -14,6 +14,7 @@ use flexion::analysis::error::{Disturbance, Mesh, Refinable, SAFETY, Variant};
 use flexion::analysis::recording::{Record, Watch};
 use flexion::analysis::transient::Plan;
 use flexion::integrator::Tolerance;
+use flexion::system::State;
 use std::borrow::Cow;
 
 /// Elements of the exact coupling where the case has no elements.
@@ -44,13 +45,19 @@ impl Refinable for Reading {
     }
 
     fn run(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Run, Problems> {
-        Ok(self.at(variant)?.prepare()?.run(watch))
+        Ok(self.at(variant)?.prepare_watched(&mut |_| watch(&State::default()))?.run(watch))
     }
 
     fn record(&self, variant: &Variant, watch: &mut Watch<'_>) -> Result<Record, Problems> {
         // Pictures are those of the run itself.
         let changes = self.changes(variant)?;
-        let mut prepared = self.changed(&changes)?.prepare()?.without_pictures();
+        let case = self.changed(&changes)?;
+        let prepared = match variant.disturbance {
+            None => case.prepare_watched(&mut |_| watch(&State::default())),
+            // Its work is counted in steps, and its start is that of the run.
+            Some(_) => case.prepare(),
+        };
+        let mut prepared = prepared?.without_pictures();
         if let Some(Disturbance { energy, period }) = variant.disturbance {
             // What cannot be disturbed moves as it did.
             let _ = disturb(prepared.live.system.as_mut(), &mut prepared.state, energy, period);

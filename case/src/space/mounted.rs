@@ -70,7 +70,7 @@ fn caution(beam: &Beam, axis: &Axis, turns: Sense) -> Option<String> {
     } else {
         format!(
             "has its chord across its motion, by {:.0}° at {OUTER} of its length",
-            ahead.clamp(-1.0, 1.0).acos().to_degrees()
+            libm::acos(ahead.clamp(-1.0, 1.0)).to_degrees()
         )
     };
     Some(format!(

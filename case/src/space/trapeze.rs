@@ -41,7 +41,7 @@ fn stiffening(beam: &Beam, axis: &Axis, speed: f64) -> f64 {
         let half =
             0.5 * step * section.mass * speed * speed * (of.position - axis.point).across(axis.direction);
         force += half;
-        let weight = (std::f64::consts::FRAC_PI_2 * s / beam.length).cos().powi(2);
+        let weight = libm::cos(std::f64::consts::FRAC_PI_2 * s / beam.length).powi(2);
         let square = (section.flap_stiffness + section.chord_stiffness) / section.axial_stiffness;
         added += weight * force.dot(of.rotation.column(0)) * square;
         stiffness += weight * section.torsional_stiffness;

@@ -111,7 +111,7 @@ struct Reader<'a> {
 /// # Errors
 /// All that is wrong with them.
 pub(super) fn read(reading: &Reading, inputs: &Inputs) -> Result<Vec<(Input, Levels)>, Problems> {
-    let problems = Problems { sources: reading.sources().to_vec(), list: Vec::new() };
+    let problems = Problems { sources: reading.sources().to_vec(), ..Problems::default() };
     let mut reader = Reader { reading, inputs, asked: Vec::new(), problems };
     reader.collect();
     let takes = reader.takes();

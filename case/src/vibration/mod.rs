@@ -5,12 +5,14 @@ mod diagram;
 mod linear;
 mod modes;
 mod place_stiffness;
+mod speeds;
 mod threads;
 
 pub use diagram::{Diagram, DiagramRequest};
 pub use linear::{Linear, LinearRequest};
 pub use modes::{FoundModes, ModesRequest};
 pub use place_stiffness::PlaceStiffness;
+pub use speeds::{Speed, Speeds, Wanted};
 pub use threads::campbell;
 
 use super::case::{Case, suspected};

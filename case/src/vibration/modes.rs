@@ -115,7 +115,7 @@ impl Reading {
     ) -> Result<(), OutputError> {
         let FoundModes { request, modes, stations, axes, scene, film, warnings, .. } = found;
         film.iter().try_for_each(|film| write_film(directory, film, Artifact::ModesSeries))?;
-        directory.write(Artifact::ModesScene, |f| scene.write(f))?;
+        directory.write_arrays(Artifact::ModesScene, |to| scene.put(to))?;
         let shown = (modes, request.speed, *axes);
         write_modes(directory, shown, stations, &request.units, &self.resolved(), title, warnings)
     }
@@ -193,7 +193,7 @@ fn film(case: &Case, modes: &Modes, system: &mut dyn System, state: &State) -> S
     let mut moved = state.clone();
     for (number, mode) in modes.modes.iter().enumerate() {
         for phase in (0..PHASES).map(|phase| f64::from(phase) / f64::from(PHASES)) {
-            let (sin, cos) = (std::f64::consts::TAU * phase).sin_cos();
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * phase);
             displace(mode, system, state, [FILMED * cos, FILMED * sin], &mut moved);
             scene.take((number + 1) as f64 + phase, system, &moved);
         }

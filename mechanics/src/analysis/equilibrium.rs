@@ -13,6 +13,7 @@ use super::joints;
 use super::path::{Plan, first_stable};
 use super::stability::{Stability, is_neutral, stability};
 use crate::system::{State, System};
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
 /// Smallest part of the load by which continuation goes on.
@@ -63,13 +64,22 @@ pub struct Effort {
 /// [`NoEquilibrium`] when the iteration breaks down however small the increments are: a limit point, or a
 /// model that has no equilibrium there.
 pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort, NoEquilibrium> {
+    direct(system, state, &mut |_| ControlFlow::Continue(()))
+}
+
+/// The same; `watch` is shown the part of the loads of every level that is tried, and ends the search by `Break`.
+fn direct(
+    system: &mut dyn System,
+    state: &mut State,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Effort, NoEquilibrium> {
     let start = state.clone();
-    let (mut result, singular) = follow_loads(system, state, 0.0);
+    let (mut result, singular) = follow_loads(system, state, 0.0, watch);
     if result.is_err() && (singular || is_neutral(system, &start)) {
         let highest = highest(system, &start);
         for hold in HOLDS.map(|part| part * highest).into_iter().filter(|hold| *hold > 0.0) {
             let mut held = start.clone();
-            if let (Ok(effort), _) = follow_loads(system, &mut held, hold) {
+            if let (Ok(effort), _) = follow_loads(system, &mut held, hold, watch) {
                 state.copy_from(&held);
                 result = Ok(effort);
                 break;
@@ -84,6 +94,7 @@ fn follow_loads(
     system: &mut dyn System,
     state: &mut State,
     hold: f64,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> (Result<Effort, NoEquilibrium>, bool) {
     let mut equations = Equations::new(system, state);
     equations.hold = hold;
@@ -93,6 +104,10 @@ fn follow_loads(
     let mut levels = 0;
     while reached < 1.0 {
         let mut level = (reached + part).min(1.0);
+        if watch(level).is_break() {
+            apply(equations.system, 1.0);
+            return (Err(stopped(equations.system, state.t, reached)), singular);
+        }
         apply(equations.system, level);
         joints::balance(equations.system, state);
         match equations.solve(state, &mut level, None) {
@@ -119,6 +134,12 @@ fn follow_loads(
     (Ok(Effort { levels, iterations: equations.iterations }), singular)
 }
 
+/// Why there is none where the search was ended.
+fn stopped(system: &dyn System, time: f64, reached: f64) -> NoEquilibrium {
+    let (what, worst) = ("the search was stopped".to_owned(), system.unknown(0));
+    NoEquilibrium { time, reached, what, worst }
+}
+
 /// An equilibrium, and how it was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Found {
@@ -132,8 +153,8 @@ pub struct Found {
 }
 
 /// As [`equilibrium`], with its stability; where growing loads end, or lead to an equilibrium that is unstable, the path of the
-/// loads is followed by its arc length to the first that is stable. `watch` is shown the load factors of the points of the path and
-/// ends the search by `Break`.
+/// loads is followed by its arc length to the first that is stable. `watch` is shown the load factors that are tried and ends the search by
+/// `Break`.
 ///
 /// # Errors
 /// [`NoEquilibrium`] when there is none at all, or the search is ended.
@@ -143,7 +164,17 @@ pub fn stable_equilibrium(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Found, NoEquilibrium> {
     let start = state.clone();
-    let direct = equilibrium(system, state);
+    let (ended, last) = (Cell::new(false), Cell::new(0.0));
+    let mut watch = |factor: f64| {
+        last.set(factor);
+        let flow = watch(factor);
+        ended.set(flow.is_break());
+        flow
+    };
+    let direct = direct(system, state, &mut watch);
+    if ended.get() {
+        return direct.map(|_| Found { stability: None, left: None, neutral: false });
+    }
     let neutral = direct.is_ok() && is_neutral(system, state);
     let found = direct.as_ref().ok().map(|_| stability(system, state));
     match found {
@@ -155,23 +186,14 @@ pub fn stable_equilibrium(
     }
     let left = found.and_then(Result::ok);
     let plan = Plan { points: POINTS, ..Plan::to(1.0) };
-    let (mut ended, mut last) = (false, 0.0);
-    let best = first_stable(system, &start, &plan, &mut |factor| {
-        last = factor;
-        let flow = watch(factor);
-        ended = flow.is_break();
-        flow
-    });
+    let best = first_stable(system, &start, &plan, &mut watch);
     apply(system, 1.0);
     match best {
         Some(best) => {
             state.copy_from(&best);
             Ok(Found { stability: Some(Stability::default()), left, neutral: false })
         }
-        None if ended => {
-            let (what, worst) = ("the search was stopped".to_owned(), system.unknown(0));
-            Err(NoEquilibrium { time: state.t, reached: last, what, worst })
-        }
+        None if ended.get() => Err(stopped(system, state.t, last.get())),
         None => direct.map(|_| Found { stability: left, left: None, neutral }),
     }
 }

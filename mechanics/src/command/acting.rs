@@ -2,9 +2,13 @@
 
 use super::input::{Input, Timing};
 use crate::system::Limit;
+use std::ops::Range;
 
 /// Part of a time by which a break may have been joined to another.
 const JOINED: f64 = 16.0 * f64::EPSILON;
+
+/// What a law gives: u, and behind it the rates of its states.
+type Given = Vec<f64>;
 
 /// A law at work.
 pub(super) struct Acting {
@@ -13,20 +17,33 @@ pub(super) struct Acting {
     pub(super) own: Vec<usize>,
     /// Number of its next sample, and of all calls that were no repetition.
     count: u64,
-    /// Arguments and value of the last call, and of one that is asked again.
-    last: Option<(f64, Vec<f64>, f64)>,
-    remembered: Option<(f64, Vec<f64>, f64)>,
+    /// Number of its first state among those of all laws.
+    pub(super) first: usize,
+    /// Arguments and what was given in the last call, and in one that is asked again.
+    last: Option<(f64, Vec<f64>, Given)>,
+    remembered: Option<(f64, Vec<f64>, Given)>,
 }
 
 impl Acting {
-    pub(super) fn new(input: Input, own: Vec<usize>) -> Acting {
-        Acting { input, own, count: 0, last: None, remembered: None }
+    pub(super) fn new(input: Input, own: Vec<usize>, first: usize) -> Acting {
+        Acting { input, own, count: 0, first, last: None, remembered: None }
     }
 
-    /// Its own of the quantities that are read.
-    pub(super) fn own_of(&self, y: &[f64]) -> Vec<f64> {
+    /// Its own of the quantities that are read, and behind them of the states of all laws.
+    pub(super) fn own_of(&self, y: &[f64], x: &[f64]) -> Vec<f64> {
         // Of a law that follows from time alone nothing is read.
-        self.own.iter().filter_map(|j| y.get(*j).copied()).collect()
+        let read = self.own.iter().filter_map(|j| y.get(*j).copied());
+        read.chain(x[self.states()].iter().copied()).collect()
+    }
+
+    /// Its states among those of all laws.
+    pub(super) fn states(&self) -> Range<usize> {
+        self.first..self.first + self.input.states.len()
+    }
+
+    /// What stands for what it gives where it gives nothing.
+    pub(super) fn nothing(&self) -> Vec<f64> {
+        vec![f64::NAN; 1 + self.input.states.len()]
     }
 
     pub(super) fn is_continuous(&self) -> bool {
@@ -34,7 +51,7 @@ impl Acting {
     }
 
     pub(super) fn feeds_back(&self) -> bool {
-        self.is_continuous() && !self.own.is_empty()
+        self.is_continuous() && !(self.own.is_empty() && self.input.states.is_empty())
     }
 
     /// Whether a sample is due at a time.
@@ -44,43 +61,52 @@ impl Acting {
         t >= next - JOINED * next
     }
 
-    pub(super) fn call(&mut self, t: f64, y: &[f64]) -> Result<f64, Limit> {
-        let Input { name, command, .. } = &mut self.input;
+    pub(super) fn call(&mut self, t: f64, y: &[f64]) -> Result<Given, Limit> {
+        let Input { name, command, states, .. } = &mut self.input;
         let limit = |why: String| Limit::Command { name: name.clone(), why };
-        match command.value(t, y) {
-            Ok(value) if value.is_finite() => Ok(value),
-            Ok(value) => Err(limit(format!("gives {value} at t = {t:.6} s, and it must be finite"))),
-            Err(why) => Err(limit(why)),
+        let mut given = vec![0.0; 1 + states.len()];
+        given[0] = command.value(t, y, &mut given[1..]).map_err(limit)?;
+        match given.iter().position(|value| !value.is_finite()) {
+            None => Ok(given),
+            Some(0) => Err(limit(format!("gives {} at t = {t:.6} s, and it must be finite", given[0]))),
+            Some(i) => Err(limit(format!(
+                "gives the rate {} of `{}` at t = {t:.6} s, and it must be finite",
+                given[i],
+                states[i - 1].name
+            ))),
         }
     }
 
-    /// The value of a law that is asked at any time. From time to time an earlier question is asked again.
-    pub(super) fn value(&mut self, t: f64, y: &[f64]) -> Result<f64, Limit> {
-        if let Some((_, _, value)) = self.last.as_ref().filter(|(at, of, _)| *at == t && of == y) {
-            return Ok(*value);
+    /// What a law gives that is asked at any time. From time to time an earlier question is asked again.
+    pub(super) fn value(&mut self, t: f64, y: &[f64]) -> Result<Given, Limit> {
+        if let Some((_, _, given)) = self.last.as_ref().filter(|(at, of, _)| *at == t && of == y) {
+            return Ok(given.clone());
         }
-        let value = self.call(t, y)?;
+        let given = self.call(t, y)?;
         self.count += 1;
         if self.count.is_power_of_two() {
-            let (at, of, before) = self.remembered.take().unwrap_or_else(|| (t, y.to_vec(), value));
+            let (at, of, before) = self.remembered.take().unwrap_or_else(|| (t, y.to_vec(), given.clone()));
             let now = self.call(at, &of)?;
-            if now.to_bits() != before.to_bits() {
+            if let Some((now, before)) =
+                now.iter().zip(&before).find(|(now, before)| now.to_bits() != before.to_bits())
+            {
                 let why = format!(
-                    "gives {before} and then {now} for the same time t = {at:.6} s and the same motion: what has memory is sampled"
+                    "gives {before} and then {now} for the same time t = {at:.6} s and the same motion: what has memory is sampled, \
+                     or a state"
                 );
                 return Err(Limit::Command { name: self.input.name.clone(), why });
             }
-            self.remembered = Some((t, y.to_vec(), value));
+            self.remembered = Some((t, y.to_vec(), given.clone()));
         }
-        self.last = Some((t, y.to_vec(), value));
-        Ok(value)
+        self.last = Some((t, y.to_vec(), given.clone()));
+        Ok(given)
     }
 
     /// Takes a sample and holds it.
     pub(super) fn sample(&mut self, t: f64, y: &[f64]) -> Result<(), Limit> {
-        let value = self.call(t, y)?;
+        let given = self.call(t, y)?;
         self.count += 1;
-        self.input.signal.hold(t, value);
+        self.input.signal.hold(t, given[0]);
         Ok(())
     }
 }

@@ -1,7 +1,8 @@
 //! A model with laws of one's own. Its formulas head the [module](super).
 
 use super::acting::Acting;
-use super::input::{CommandFault, Input};
+use super::input::{CommandFault, Input, LawState};
+use super::seen::Seen;
 use crate::linalg::{Matrix, Structure};
 use crate::system::{
     Break, Channel, ContactInfo, ContactSample, Corotation, Crossing, Direction, Dynamics, Energy, Events,
@@ -18,6 +19,10 @@ const DEPENDS: f64 = 1e-9;
 pub struct Commanded {
     inner: Box<dyn System>,
     laws: Vec<Acting>,
+    /// What the model sees of a state.
+    seen: Seen,
+    /// Sizes of the velocities' unknowns, those of the states behind them.
+    scales: Vec<f64>,
     breaks: Vec<Break>,
     /// The quantities that some law reads: numbers of columns, and their scales.
     read: Vec<(usize, f64)>,
@@ -39,12 +44,14 @@ impl Commanded {
         for input in &inputs {
             let times = input.times(end)?;
             breaks.extend(times.into_iter().map(|time| Break { time, jump: Jump::Acceleration }));
+            input.check_states()?;
         }
         let channels = inner.channels();
         let reactions = reactions(inner.as_mut(), &inputs, channels.len());
         let length = inner.length();
         let mut read: Vec<(usize, f64)> = Vec::new();
-        let mut laws = Vec::new();
+        let mut laws: Vec<Acting> = Vec::new();
+        let mut scales = inner.scales().to_vec();
         for input in inputs {
             let mut own = Vec::new();
             for column in &input.reads {
@@ -65,10 +72,14 @@ impl Commanded {
                     read.push((i, scale));
                 }
             }
-            laws.push(Acting::new(input, own));
+            let first = laws.last().map_or(0, |law| law.states().end);
+            scales.extend(input.states.iter().map(|state| state.size));
+            laws.push(Acting::new(input, own, first));
         }
         let row = vec![0.0; channels.len()];
-        Ok(Commanded { inner, laws, breaks: ordered(breaks), read, row, began: false, fault: None })
+        let seen = Seen::new(inner.size(), laws.last().map_or(0, |law| law.states().end));
+        let breaks = ordered(breaks);
+        Ok(Commanded { inner, laws, seen, scales, breaks, read, row, began: false, fault: None })
     }
 
     fn feeds_back(&self) -> bool {
@@ -80,40 +91,53 @@ impl Commanded {
         if self.read.is_empty() {
             return Vec::new();
         }
-        self.inner.record(s, &mut self.row);
+        self.inner.record(self.seen.of(s), &mut self.row);
         self.read.iter().map(|(i, _)| self.row[*i]).collect()
     }
 
-    /// Asks the laws that are asked at any time.
-    fn command(&mut self, s: &State) {
+    /// The states of the laws, with their numbers.
+    fn states(&self) -> impl Iterator<Item = (usize, &LawState)> {
+        self.laws.iter().flat_map(|law| law.states().zip(&law.input.states))
+    }
+
+    /// Asks the laws that are asked at any time. Returns the rates of their states.
+    fn command(&mut self, s: &State) -> Vec<f64> {
+        let mut rates = vec![0.0; self.seen.states];
         if !self.began || !self.laws.iter().any(Acting::is_continuous) {
-            return;
+            return rates;
         }
         let t = s.time();
         let y = if self.feeds_back() { self.quantities(s) } else { Vec::new() };
+        let x = self.seen.laws(s);
         for law in self.laws.iter_mut().filter(|law| law.is_continuous()) {
-            let own = law.own_of(&y);
+            let own = law.own_of(&y, x);
             // A state that is no number is an attempt that has failed already.
-            let value = match &self.fault {
+            let given = match &self.fault {
                 None if own.iter().all(|y| y.is_finite()) => law.value(t, &own),
-                _ => Ok(f64::NAN),
+                _ => Ok(law.nothing()),
             };
-            law.input.signal.set(value.unwrap_or_else(|fault| {
+            let given = given.unwrap_or_else(|fault| {
                 self.fault = Some(fault);
-                f64::NAN
-            }));
+                law.nothing()
+            });
+            law.input.signal.set(given[0]);
+            rates[law.states()].copy_from_slice(&given[1..]);
         }
+        rates
     }
 
-    /// ∂u/∂q · w.q + ∂u/∂v · w.v of a law: its slopes by what it reads, times the slopes of these.
-    fn slopes(&mut self, s: &State, w: &Weights<'_>) -> Result<Vec<Vec<f64>>, Limit> {
-        let (t, n, y) = (s.time(), s.v.len(), self.quantities(s));
-        let scales = self.inner.scales().to_vec();
+    /// The slopes of what laws read, ∂y/∂q w.q + ∂y/∂v w.v.
+    fn slopes_of_quantities(&mut self, s: &State, w: &Weights<'_>) -> Vec<Vec<f64>> {
+        let n = self.seen.model.v;
         let mut by: Vec<Vec<f64>> = vec![vec![0.0; n]; self.read.len()];
+        if by.is_empty() {
+            return by;
+        }
+        let at = self.seen.copy(s);
         let mut moved = s.clone();
         let mut way = vec![0.0; n];
         for i in 0..n {
-            let h = STEP * scales[i];
+            let h = STEP * self.scales[i];
             for (weight, of_velocity) in [(w.q, false), (w.v, true)] {
                 if weight == 0.0 {
                     continue;
@@ -123,7 +147,7 @@ impl Commanded {
                         moved.v[i] = s.v[i] + h;
                     } else {
                         way[i] = h;
-                        self.inner.retract(&s.q, &way, &mut moved.q);
+                        self.inner.retract(&at.q, &way, &mut moved.q[..self.seen.model.q]);
                     }
                     self.quantities(&moved)
                 });
@@ -134,40 +158,75 @@ impl Commanded {
                 }
             }
         }
+        by
+    }
+
+    /// ∂u/∂q w.q + ∂u/∂v w.v of every law, and behind it the same of the rates of its states: slopes by what it reads times the slopes of
+    /// that, and slopes by its states.
+    fn slopes(&mut self, s: &State, w: &Weights<'_>) -> Result<Vec<Vec<Vec<f64>>>, Limit> {
+        let (t, y) = (s.time(), self.quantities(s));
+        let by = self.slopes_of_quantities(s, w);
+        let (n, x) = (self.seen.model.v, self.seen.laws(s));
         let mut all = Vec::new();
         for law in &mut self.laws {
-            let mut slope = vec![0.0; n];
-            let numbers = if law.feeds_back() { law.own.clone() } else { Vec::new() };
-            let mut own = law.own_of(&y);
-            for (k, j) in numbers.into_iter().enumerate() {
-                let (at, h) = (own[k], STEP * self.read[j].1.max(own[k].abs()));
+            let mut slopes = vec![vec![0.0; n + x.len()]; 1 + law.input.states.len()];
+            let arguments = if law.feeds_back() { law.own.len() + law.input.states.len() } else { 0 };
+            let mut own = law.own_of(&y, x);
+            for k in 0..arguments {
+                let read = law.own.get(k).copied();
+                let state = law.first + k.saturating_sub(law.own.len());
+                let scale = read.map_or_else(|| self.scales[n + state], |j| self.read[j].1);
+                let (at, h) = (own[k], STEP * scale.max(own[k].abs()));
                 own[k] = at + h;
                 let after = law.call(t, &own)?;
                 own[k] = at - h;
-                let by_quantity = (after - law.call(t, &own)?) / (2.0 * h);
+                let before = law.call(t, &own)?;
                 own[k] = at;
-                slope.iter_mut().zip(&by[j]).for_each(|(slope, by)| *slope += by_quantity * by);
+                for ((slope, after), before) in slopes.iter_mut().zip(after).zip(before) {
+                    let by_argument = (after - before) / (2.0 * h);
+                    match read {
+                        Some(j) => {
+                            slope.iter_mut().zip(&by[j]).for_each(|(slope, by)| *slope += by_argument * by);
+                        }
+                        None => slope[n + state] += w.v * by_argument,
+                    }
+                }
             }
-            all.push(slope);
+            all.push(slopes);
         }
         Ok(all)
     }
 
-    /// Adds Σ ∂r/∂u ∂u/∂(q, v) to a tangent.
+    /// The tangent without slopes of laws.
+    fn tangent_of_model(&mut self, s: &State, w: &Weights<'_>, out: &mut Matrix) {
+        let Seen { model, states, .. } = self.seen;
+        let of_model = Weights { increment: w.increment.map(|d| &d[..model.v]), ..*w };
+        self.inner.tangent(self.seen.of(s), of_model, out);
+        let storage = out.begin();
+        for i in model.v..model.v + states {
+            storage.add(i, i, w.a + if self.began { 0.0 } else { w.q });
+        }
+    }
+
+    /// Adds Σ ∂r/∂u ∂u/∂(q, v), and −∂ẋ/∂(q, v) of the states, to a tangent.
     fn add_slopes(&mut self, s: &State, w: &Weights<'_>, out: &mut Matrix) -> Result<(), Limit> {
         let slopes = self.slopes(s, w)?;
-        let n = s.v.len();
+        let n = self.seen.model.v;
         let (mut before, mut after) = (vec![0.0; n], vec![0.0; n]);
-        self.inner.residual(s, &mut before);
-        for (law, slope) in self.laws.iter().zip(&slopes).filter(|(law, _)| law.feeds_back()) {
+        let seen = self.seen.of(s);
+        self.inner.residual(seen, &mut before);
+        for (law, slopes) in self.laws.iter().zip(&slopes).filter(|(law, _)| law.feeds_back()) {
             let (signal, value) = (&law.input.signal, law.input.signal.last());
             let step = value.abs().max(1.0);
             signal.set(value + step);
-            self.inner.residual(s, &mut after);
+            self.inner.residual(seen, &mut after);
             signal.set(value);
             let storage = out.begin();
             for (i, (before, after)) in before.iter().zip(&after).enumerate() {
-                storage.add_row(i, (after - before) / step, slope);
+                storage.add_row(i, (after - before) / step, &slopes[0]);
+            }
+            for (i, slope) in law.states().zip(&slopes[1..]) {
+                storage.add_row(n + i, -1.0, slope);
             }
         }
         Ok(())
@@ -202,12 +261,13 @@ fn reactions(inner: &mut dyn System, inputs: &[Input], count: usize) -> Vec<bool
 
 impl Dynamics for Commanded {
     fn size(&self) -> Size {
-        self.inner.size()
+        let Size { q, v, lambda, memory } = self.seen.model;
+        Size { q: q + self.seen.states, v: v + self.seen.states, lambda, memory }
     }
 
     fn structure(&self, multipliers: usize) -> Structure {
         let structure = self.inner.structure(multipliers);
-        if self.feeds_back() { Structure::dense(structure.order()) } else { structure }
+        if self.feeds_back() { Structure::dense(structure.order() + self.seen.states) } else { structure }
     }
 
     fn contacts_are_local(&self) -> bool {
@@ -215,19 +275,41 @@ impl Dynamics for Commanded {
     }
 
     fn scales(&self) -> &[f64] {
-        self.inner.scales()
+        &self.scales
+    }
+
+    fn length(&self) -> f64 {
+        self.inner.length()
+    }
+
+    fn fastest(&self, v: &[f64]) -> f64 {
+        self.inner.fastest(&v[..self.seen.model.v])
     }
 
     fn unknown(&self, i: usize) -> String {
-        self.inner.unknown(i)
+        let Seen { model, states, .. } = self.seen;
+        let state =
+            i.checked_sub(model.v).and_then(|state| self.states().find(|(number, _)| *number == state));
+        let of_model = if i < model.v { i } else { i.saturating_sub(states) };
+        state.map_or_else(
+            || self.inner.unknown(of_model),
+            |(_, state)| format!("the state `{}` of a law", state.name),
+        )
     }
 
     fn initial(&self) -> State {
-        self.inner.initial()
+        let mut s = self.inner.initial();
+        s.q.extend(self.states().map(|_| 0.0));
+        s.v.extend(self.states().map(|(_, state)| state.start));
+        s.a.extend(self.states().map(|_| 0.0));
+        s
     }
 
     fn across(&self) -> Vec<usize> {
-        self.inner.across()
+        let n = self.seen.model.v;
+        let mut across = self.inner.across();
+        across.extend(n..n + self.seen.states);
+        across
     }
 
     fn is_affine(&self) -> bool {
@@ -239,28 +321,41 @@ impl Dynamics for Commanded {
     }
 
     fn retract(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
-        self.inner.retract(q, d, out);
+        let Size { q: coordinates, v, .. } = self.seen.model;
+        self.inner.retract(&q[..coordinates], &d[..v], &mut out[..coordinates]);
+        let moved = q[coordinates..].iter().zip(&d[v..]);
+        out[coordinates..].iter_mut().zip(moved).for_each(|(out, (q, d))| *out = q + d);
     }
 
     fn difference(&self, from: &[f64], to: &[f64], d: &mut [f64]) {
-        self.inner.difference(from, to, d);
+        let Size { q: coordinates, v, .. } = self.seen.model;
+        self.inner.difference(&from[..coordinates], &to[..coordinates], &mut d[..v]);
+        let moved = from[coordinates..].iter().zip(&to[coordinates..]);
+        d[v..].iter_mut().zip(moved).for_each(|(d, (from, to))| *d = to - from);
     }
 
     fn rate(&self, from: &[f64], d: &[f64], v: &[f64], out: &mut [f64]) {
-        self.inner.rate(from, d, v, out);
+        let Size { q: coordinates, v: n, .. } = self.seen.model;
+        self.inner.rate(&from[..coordinates], &d[..n], &v[..n], &mut out[..n]);
+        out[n..].copy_from_slice(&v[n..]);
     }
 
+    /// r of the model, and behind it a − ẋ(t, y, x) of each state; X + a before a run begins, so that an equilibrium is one.
     fn residual(&mut self, s: &State, r: &mut [f64]) {
-        self.command(s);
-        self.inner.residual(s, r);
+        let rates = self.command(s);
+        let Size { q, v, .. } = self.seen.model;
+        self.inner.residual(self.seen.of(s), &mut r[..v]);
+        for (i, rate) in rates.into_iter().enumerate() {
+            r[v + i] = s.a[v + i] - if self.began { rate } else { -s.q[q + i] };
+        }
     }
 
     fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
-        self.inner.constraint(s, c, g);
+        self.inner.constraint(self.seen.of(s), c, g);
     }
 
     fn dropped(&mut self, s: &State) -> [f64; 3] {
-        self.inner.dropped(s)
+        self.inner.dropped(self.seen.of(s))
     }
 
     fn rows(&self) -> &[Set] {
@@ -268,7 +363,7 @@ impl Dynamics for Commanded {
     }
 
     fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
-        self.inner.jacobian(s, visit);
+        self.inner.jacobian(self.seen.of(s), visit);
     }
 
     fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
@@ -278,18 +373,24 @@ impl Dynamics for Commanded {
             // What the model has written there before may hold slopes of the laws.
             out.set_stamp(None);
         }
-        self.inner.tangent(s, w, out);
+        self.tangent_of_model(s, &w, out);
         if adds && let Err(fault) = self.add_slopes(s, &w, out) {
             self.fault = Some(fault);
         }
     }
 
     fn corotate(&self, before: &State, now: &State, out: &mut Corotation) {
-        self.inner.corotate(before, now, out);
+        if self.seen.states == 0 {
+            self.inner.corotate(before, now, out);
+        } else {
+            // It would number multipliers as the model does.
+            out.clear();
+        }
     }
 
     fn stiffness_forms(&mut self, s: &State, vectors: &[Vec<f64>]) -> Option<Vec<StiffnessForm>> {
-        if self.began && self.feeds_back() { None } else { self.inner.stiffness_forms(s, vectors) }
+        let is_model = self.seen.states == 0 && !(self.began && self.feeds_back());
+        if is_model { self.inner.stiffness_forms(s, vectors) } else { None }
     }
 }
 
@@ -301,12 +402,13 @@ impl Events for Commanded {
     /// Takes the samples that are due.
     fn pass(&mut self, s: &State) -> Result<(), Limit> {
         self.began = true;
-        self.inner.pass(s)?;
+        self.inner.pass(self.seen.of(s))?;
         let t = s.time();
         if self.laws.iter().any(|law| law.is_due(t)) {
             let y = self.quantities(s);
+            let x = self.seen.laws(s);
             for law in self.laws.iter_mut().filter(|law| law.is_due(t)) {
-                let own = law.own_of(&y);
+                let own = law.own_of(&y, x);
                 law.sample(t, &own)?;
             }
         }
@@ -314,15 +416,25 @@ impl Events for Commanded {
     }
 
     fn impulse(&mut self, s: &State, p: &mut [f64]) -> bool {
-        self.inner.impulse(s, p)
+        let states = self.seen.states;
+        if states == 0 {
+            return self.inner.impulse(s, p);
+        }
+        let n = self.seen.model.v;
+        let mut of_model = vec![0.0; p.len() - states];
+        let acts = self.inner.impulse(self.seen.of(s), &mut of_model);
+        p[..n].copy_from_slice(&of_model[..n]);
+        p[n..n + states].fill(0.0);
+        p[n + states..].copy_from_slice(&of_model[n..]);
+        acts
     }
 
     fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
-        self.inner.impulse_work(before, after)
+        self.inner.impulse_work(&self.seen.copy(before), &self.seen.copy(after))
     }
 
     fn turning(&mut self, s: &State) -> f64 {
-        self.inner.turning(s)
+        self.inner.turning(self.seen.of(s))
     }
 
     fn indicators(&self) -> usize {
@@ -330,15 +442,18 @@ impl Events for Commanded {
     }
 
     fn indicate(&mut self, s: &State, out: &mut [f64]) {
-        self.inner.indicate(s, out);
+        self.inner.indicate(self.seen.of(s), out);
     }
 
     fn indicator_rates(&mut self, s: &State, out: &mut [f64]) {
-        self.inner.indicator_rates(s, out);
+        self.inner.indicator_rates(self.seen.of(s), out);
     }
 
     fn cross(&mut self, fired: &[usize], s: &mut State) -> Crossing {
-        self.inner.cross(fired, s)
+        let mut model = self.seen.copy(s);
+        let crossing = self.inner.cross(fired, &mut model);
+        self.seen.put(&model, s);
+        crossing
     }
 }
 
@@ -358,50 +473,57 @@ impl Steady for Commanded {
 
 impl Observed for Commanded {
     fn energy(&mut self, s: &State) -> Energy {
-        self.inner.energy(s)
+        self.inner.energy(self.seen.of(s))
     }
 
     fn power(&mut self, s: &State) -> Power {
         self.command(s);
-        self.inner.power(s)
+        self.inner.power(self.seen.of(s))
     }
 
     fn energy_and_power(&mut self, s: &State) -> (Energy, Power) {
         self.command(s);
-        self.inner.energy_and_power(s)
+        self.inner.energy_and_power(self.seen.of(s))
     }
 
     fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
-        self.inner.frames(body, s, stations, out);
+        self.inner.frames(body, self.seen.of(s), stations, out);
     }
 
     fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {
         self.command(s);
-        self.inner.observe(s, sink);
-        for Acting { input, .. } in &self.laws {
-            let value = crate::profile::Profile::value(&*input.signal, s.time());
+        self.inner.observe(self.seen.of(s), sink);
+        for law in &self.laws {
+            let Input { name, unit, signal, states, .. } = &law.input;
+            let value = crate::profile::Profile::value(&**signal, s.time());
             sink.put(value, || {
-                let name = &input.name;
                 let meaning = format!("what the law `{name}` gives");
-                Channel::new(Role::Secondary, format!("law.{name}"), input.unit, meaning)
+                Channel::new(Role::Secondary, format!("law.{name}"), *unit, meaning)
             });
+            for (state, value) in states.iter().zip(&self.seen.laws(s)[law.states()]) {
+                sink.put(*value, || {
+                    let meaning = format!("the state `{}` of the law `{name}`", state.name);
+                    Channel::new(Role::Secondary, format!("law.{name}.{}", state.name), "", meaning)
+                });
+            }
         }
     }
 
     fn contacts(&mut self, s: &State) -> Vec<ContactInfo> {
-        self.inner.contacts(s)
+        self.inner.contacts(self.seen.of(s))
     }
 
     fn contact_samples(&mut self, s: &State, out: &mut Vec<ContactSample>) {
-        self.inner.contact_samples(s, out);
+        self.inner.contact_samples(self.seen.of(s), out);
     }
 
     fn direction(&self, i: usize) -> Direction {
-        self.inner.direction(i)
+        if i < self.seen.model.v { self.inner.direction(i) } else { Direction::Other }
     }
 
     fn shares(&self, s: &State, x: &[f64], mx: &[f64], add: &mut dyn FnMut(Direction, f64)) {
-        self.inner.shares(s, x, mx, add);
+        let n = self.seen.model.v;
+        self.inner.shares(&self.seen.copy(s), &x[..n], &mx[..n], add);
     }
 
     fn drawn(&self) -> usize {
@@ -410,11 +532,11 @@ impl Observed for Commanded {
 
     fn admissible(&mut self, s: &State) -> Result<(), Limit> {
         self.fault.clone().map_or(Ok(()), Err)?;
-        self.inner.admissible(s)
+        self.inner.admissible(self.seen.of(s))
     }
 
     fn explain(&mut self, s: &State) -> Option<Limit> {
-        self.fault.clone().or_else(|| self.inner.explain(s))
+        self.fault.clone().or_else(|| self.inner.explain(self.seen.of(s)))
     }
 
     fn slender(&self) -> Option<Slender> {

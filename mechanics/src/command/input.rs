@@ -8,11 +8,23 @@ const MOST: f64 = 1e7;
 
 /// A law: a number that follows from time and motion.
 pub trait Command: Send {
-    /// u(t, y), with y the values of the quantities that it reads, in their order.
+    /// u(t, y, x), with y the values of the quantities that it reads, in their order, and behind them in the same slice its states x. Writes
+    /// the rates ẋ(t, y, x) into `rates`.
     ///
     /// # Errors
     /// Why there is none, behind the words "the law `name`": the run ends there.
-    fn value(&mut self, t: f64, y: &[f64]) -> Result<f64, String>;
+    fn value(&mut self, t: f64, y: &[f64], rates: &mut [f64]) -> Result<f64, String>;
+}
+
+/// A state of a law, which the method of integration integrates with the motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LawState {
+    /// Its name.
+    pub name: String,
+    /// Its value at t = 0.
+    pub start: f64,
+    /// The size (> 0) by which its errors are measured.
+    pub size: f64,
 }
 
 /// When a law is asked.
@@ -38,6 +50,8 @@ pub struct Input {
     pub unit: &'static str,
     /// Columns that it reads.
     pub reads: Vec<String>,
+    /// Its states.
+    pub states: Vec<LawState>,
     /// When it is asked.
     pub timing: Timing,
     /// The law.
@@ -47,6 +61,27 @@ pub struct Input {
 }
 
 impl Input {
+    /// Whether its states can be integrated.
+    pub(super) fn check_states(&self) -> Result<(), CommandFault> {
+        for (i, state) in self.states.iter().enumerate() {
+            let LawState { name, start, size } = state;
+            let other = self.reads.iter().chain(self.states[..i].iter().map(|state| &state.name));
+            let why = if matches!(self.timing, Timing::Sampled { .. }) {
+                "is integrated, and a sampled law has a memory of its own".to_owned()
+            } else if !start.is_finite() {
+                format!("begins with {start}, which must be finite")
+            } else if !(size.is_finite() && *size > 0.0) {
+                format!("has the size {size}, which must be positive and finite")
+            } else if name.is_empty() || other.into_iter().any(|other| other == name) {
+                "must have a name of its own".to_owned()
+            } else {
+                continue;
+            };
+            return Err(CommandFault::State { input: self.name.clone(), state: name.clone(), why });
+        }
+        Ok(())
+    }
+
     /// The times at which a law jumps, between the start of a run and its end.
     pub(super) fn times(&self, end: f64) -> Result<Vec<f64>, CommandFault> {
         let Input { name, timing, .. } = self;
@@ -105,6 +140,16 @@ pub enum CommandFault {
         value: f64,
         /// What it must be.
         needed: &'static str,
+    },
+    /// A state cannot be integrated.
+    #[error("the state `{state}` of the law `{input}` {why}")]
+    State {
+        /// Name of the law.
+        input: String,
+        /// Name of the state.
+        state: String,
+        /// What is wrong.
+        why: String,
     },
     /// There are too many samples.
     #[error(

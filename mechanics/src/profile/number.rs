@@ -48,7 +48,7 @@ impl Number for f64 {
     }
 
     fn pow(self, exponent: f64) -> f64 {
-        self.powf(exponent)
+        libm::pow(self, exponent)
     }
 
     fn apply(self, function: Function) -> f64 {

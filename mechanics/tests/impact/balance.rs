@@ -33,7 +33,7 @@ impl Observer for Balance {
 }
 
 /// N = 2, e = 0, the first 2 s: |E + losses − E₀| ≤ 1e-6 E₀ in the two schemes that conserve the energy of a linear vibration
-/// of any frequency. (`impact_study -- balance` has 20 s, and the schemes that do not.)
+/// of any frequency. (`studies/impacts`, T6, has 20 s, and the schemes that do not.)
 #[test]
 fn seconds_of_bouncing_keep_the_balance_of_energy_to_a_millionth() {
     let trapezium = GeneralizedAlpha::hht(0.0).unwrap().stabilized();

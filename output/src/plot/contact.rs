@@ -1,7 +1,8 @@
 //! The figure of a run with contacts: gaps, forces, energies, and the first burst of impacts.
 
-use super::panels::{column, energies, figure_of, panel, points, shown_columns};
+use super::panels::{column, energies, figure_of, panel, points};
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
+use crate::columns::shown_columns;
 use crate::{Drawn, Entry, Events, Scene, Trajectory};
 
 /// Contacts that are drawn.

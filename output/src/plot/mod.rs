@@ -30,7 +30,7 @@ mod views;
 pub use self::blades::{Blade, Turning};
 pub use self::contact::contact_figure;
 pub use self::draw::Drawing;
-pub use self::panels::{compare_figure, difference_figure, shown_columns, trajectory_figure};
+pub use self::panels::{compare_figure, difference_figure, trajectory_figure};
 pub use self::runs::runs_figure;
 pub use self::statics::statics_figure;
 pub use self::vibration::{campbell_figure, modes_figure};

@@ -2,9 +2,10 @@
 
 use super::blades::{self, Blade, Marks, Turning};
 use super::contact::contact_panels;
-use super::panels::{column, energies, moving, shown_columns};
+use super::panels::{column, energies};
 use super::style::{PANEL_HEIGHT, PANEL_WIDTH, VIEWS};
 use super::{Axis, Figure, Line, Marker, Panel, Series, Words};
+use crate::columns::{moving, shown_columns};
 use crate::{Events, Scene, Trajectory};
 use flexion::linalg::Vec3;
 
@@ -23,7 +24,7 @@ const FRONT: f64 = 0.99;
 const BEYOND: f64 = 10.0;
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-/// The figure of a run in space: three views at several times, and the [first columns](super::shown_columns) against time; with contacts their
+/// The figure of a run in space: three views at several times, and the [first columns](crate::shown_columns) against time; with contacts their
 /// gaps, forces and first burst. Of a run of one time it is the views.
 pub fn spatial_figure(
     scene: &Scene,

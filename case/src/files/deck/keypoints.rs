@@ -66,7 +66,7 @@ impl Keypoints {
             points.windows(2).map(|pair| angle(pair[1].1 - pair[0].1)).collect()
         });
         let steps = points.windows(2).map(|pair| pair[1].1 - pair[0].1);
-        let inclined = steps.map(|step| (step[2] / step.norm()).clamp(-1.0, 1.0).acos().to_degrees());
+        let inclined = steps.map(|step| libm::acos((step[2] / step.norm()).clamp(-1.0, 1.0)).to_degrees());
         let most = inclined.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((i, angle)) = most.filter(|(_, angle)| *angle > INCLINED) {
             out.push(format!(

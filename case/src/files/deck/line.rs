@@ -54,7 +54,7 @@ impl Line {
             for u in [pair[0].0, 0.5 * (pair[0].0 + pair[1].0), pair[1].0] {
                 let slope = line.slope(u);
                 let size = slope.norm();
-                if !(size > 0.0 && slope[0].hypot(slope[2]) > LEAST * size) {
+                if !(size > 0.0 && libm::hypot(slope[0], slope[2]) > LEAST * size) {
                     return Err(format!(
                         "between its points {} and {} the line goes along y, or nowhere, where the axes of sections are not defined",
                         number + 1,
@@ -150,7 +150,7 @@ impl Line {
 
     /// The axes e and g of a section without twist, of the unit tangent of the line.
     pub(crate) fn untwisted(t: Vec3) -> (Vec3, Vec3) {
-        let square = t[0].hypot(t[2]);
+        let square = libm::hypot(t[0], t[2]);
         let e = Vec3([t[2] / square, 0.0, -t[0] / square]);
         (e, t.cross(e))
     }

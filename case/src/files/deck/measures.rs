@@ -44,7 +44,7 @@ impl Measures {
     /// Larger and smaller principal radius of gyration: of the stiffness, and of the mass.
     pub fn radii(&self) -> [[f64; 2]; 2] {
         let of = |[a, b]: [f64; 2], product: f64, by: f64| {
-            let (mean, apart) = (0.5 * (a + b), (0.5 * (a - b)).hypot(product));
+            let (mean, apart) = (0.5 * (a + b), libm::hypot(0.5 * (a - b), product));
             [mean + apart, mean - apart].map(|x| (x.max(0.0) / by).sqrt())
         };
         let [stiff, heavy] = self.products;

@@ -13,6 +13,7 @@ use super::measures::Measures;
 use super::rows::{Convention, Row};
 use super::smooth::{ELSEWHERE, is_smooth, leaving};
 use flexion::section::Matrices;
+use libm::log;
 
 /// A value of a station, and whether a deck leaves it out.
 type Value = fn(&Measures) -> f64;
@@ -140,7 +141,7 @@ impl Stations<'_> {
         let mut out = Vec::new();
         let mut named = vec![false; self.rows.len()];
         for of in SIZES.iter().chain(&RATIOS).filter(|of| !(of.silent)(&self.silent)) {
-            let values: Vec<f64> = self.measures.iter().map(|m| (of.of)(m).ln()).collect();
+            let values: Vec<f64> = self.measures.iter().map(|m| log((of.of)(m))).collect();
             // A ratio tells nothing new of a station of which one of its sizes is told.
             let is_new = |range: &[usize; 2]| of.parts.is_empty() || (range[0]..=range[1]).all(|i| !named[i]);
             if let Some(range) = self.out_of_line(of, &values).filter(is_new) {
@@ -161,7 +162,7 @@ impl Stations<'_> {
         if n < 2 {
             return None;
         }
-        let leaves = |i: usize, factor: f64| leaving(v, i, i) > factor.ln();
+        let leaves = |i: usize, factor: f64| leaving(v, i, i) > log(factor);
         let single = (1..n - 1).find(|i| leaves(*i, of.factors[0])).or_else(|| {
             (1..n - 1).find(|i| {
                 leaves(*i, of.factors[1]) && is_smooth(n, *i, |k| leaving(v, k, k), leaving(v, *i, *i))
@@ -170,21 +171,21 @@ impl Stations<'_> {
         if let Some(i) = single {
             return Some([i, i]);
         }
-        let pair = |i: &usize| leaving(v, *i, i + 1) > of.factors[2].ln() && !self.is_part(*i);
+        let pair = |i: &usize| leaving(v, *i, i + 1) > log(of.factors[2]) && !self.is_part(*i);
         if let Some(i) = (1..n.max(3) - 2).find(pair) {
             return Some([i, i + 1]);
         }
         let [first, last] = [v[1] - v[0], v[n - 1] - v[n - 2]];
-        if first.abs() > of.ends[0].ln() {
+        if first.abs() > log(of.ends[0]) {
             return Some([0, 0]);
         }
-        if last > of.ends[1].ln() || -last > of.ends[2].ln() {
+        if last > log(of.ends[1]) || -last > log(of.ends[2]) {
             return Some([n - 1, n - 1]);
         }
         // Two at an end tell by a ratio alone, which changes so much at a written jump at most.
         let is_step = |i: usize| {
             let is_jump = self.rows[i].place == self.rows[i + 1].place;
-            !of.parts.is_empty() && !is_jump && (v[i + 1] - v[i]).abs() > of.ends[0].ln()
+            !of.parts.is_empty() && !is_jump && (v[i + 1] - v[i]).abs() > log(of.ends[0])
         };
         if n < ELSEWHERE.0 {
             return None;
@@ -245,11 +246,11 @@ impl Stations<'_> {
         }
         let senses = |i: usize| -> f64 {
             let sense = |of: &&Quantity| {
-                let v: [f64; 4] = std::array::from_fn(|k| (of.of)(&self.measures[i - 1 + k]).ln());
+                let v: [f64; 4] = std::array::from_fn(|k| log((of.of)(&self.measures[i - 1 + k])));
                 let d: [f64; 3] = std::array::from_fn(|k| v[k + 1] - v[k]);
                 let turns = d[0] * d[1] < 0.0 && d[1] * d[2] < 0.0;
                 let is_back =
-                    turns && d[1].abs() > EXCHANGED.0.ln() && d[1].abs() < d[0].abs().min(d[2].abs());
+                    turns && d[1].abs() > log(EXCHANGED.0) && d[1].abs() < d[0].abs().min(d[2].abs());
                 if is_back { d[1].signum() } else { 0.0 }
             };
             sizes.iter().map(sense).sum()

@@ -53,7 +53,7 @@ pub(super) fn cautions(
     let all = || rows.iter().zip(&measures);
     // The station at which a number is farthest from what is likely, in its logarithm.
     let worst = |of: &dyn Fn(&Measures) -> f64, [least, most]: [f64; 2]| {
-        let excess = |m: &Measures| (of(m) / most).ln().max((least / of(m)).ln());
+        let excess = |m: &Measures| libm::log(of(m) / most).max(libm::log(least / of(m)));
         all().filter(|(_, m)| !(excess(m) <= 0.0)).max_by(|a, b| excess(a.1).total_cmp(&excess(b.1)))
     };
 
@@ -203,14 +203,14 @@ pub(super) fn cautions(
     for (k, (centre, letter)) in [("tension centre", 'K'), ("centre of mass", 'M')].into_iter().enumerate() {
         let share = |m: &Measures| {
             let [y, z] = m.centres[k];
-            y.hypot(z) / m.radii().as_flattened().iter().fold(0.0, |a: f64, b| a.max(*b))
+            libm::hypot(y, z) / m.radii().as_flattened().iter().fold(0.0, |a: f64, b| a.max(*b))
         };
         if let Some((row, m)) = worst(&share, [0.0, OFFSET]) {
             let [y, z] = m.centres[k];
             out.push(format!(
                 "{}: the {centre} is {:.4} m off the line, {:.1} times the radius of gyration of the section, from {}, {} and {}",
                 row.at(name, c, k, c.place[0]),
-                y.hypot(z),
+                libm::hypot(y, z),
                 share(m),
                 c.upper(letter, 0, 4),
                 c.upper(letter, 0, 5),

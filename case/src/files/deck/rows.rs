@@ -212,7 +212,7 @@ impl Row {
         (3..6).for_each(|i| (3..6).for_each(|j| out[i][j] = m[i][j]));
         // About the centre of mass (y, z) nothing may be left but positive moments of inertia.
         let (y, z) = (-out[0][5] / size, out[0][4] / size);
-        for (i, arm) in [(3, y.hypot(z)), (4, z), (5, y)] {
+        for (i, arm) in [(3, libm::hypot(y, z)), (4, z), (5, y)] {
             let moved = size * arm * arm;
             if !(m[i][i] > moved) {
                 return Err(format!(

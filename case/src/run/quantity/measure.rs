@@ -103,7 +103,8 @@ impl Quantity {
         let of = |kinds: &'static [&'static str]| {
             events.list.iter().filter(within).filter(move |entry| kinds.contains(&entry.what))
         };
-        let sum = |kinds, value: fn(&Entry) -> Option<f64>| of(kinds).filter_map(value).sum::<f64>();
+        let sum =
+            |kinds, value: fn(&Entry) -> Option<f64>| of(kinds).filter_map(value).fold(0.0, |sum, x| sum + x);
         let at_end = |value: f64| Ok(Measured { value, time: end.min(to) });
         match what {
             OfContact::FirstTouch => {
@@ -113,7 +114,8 @@ impl Quantity {
                     .ok_or_else(|| format!("{contact} is not touched until t = {end} s"))?;
                 Ok(Measured { value: time, time })
             }
-            OfContact::Impulse => at_end(sum(&["burst", "left"], |entry| entry.impulse)),
+            // Impacts, the force of a closed contact until it opens, a continuous force; a burst is the sum of some of the first two.
+            OfContact::Impulse => at_end(sum(&["impact", "opened", "left"], |entry| entry.impulse)),
             OfContact::Impacts => at_end(of(&["impact", "touched"]).count() as f64),
             OfContact::Loss => at_end(sum(&["impact", "left"], |entry| entry.lost)),
         }

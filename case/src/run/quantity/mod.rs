@@ -3,12 +3,14 @@
 //! `tip.deflection.amplitude@15..20` is the name of a column, of a contact, `work` or `run`, what is asked of it, and the times to which it is restricted.
 
 mod measure;
+mod time;
 
 use super::{Prepared, Run};
 use flexion::analysis::error::SAFETY;
 use flexion::system::Channel;
-use flexion_results::{ColumnError, ResultsError, nearest};
+use flexion_results::{ColumnError, ResultsError, Trajectory, nearest};
 pub use measure::Measured;
+use time::Compared;
 
 /// Which value of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -182,6 +184,9 @@ impl Quantity {
                 })
             }
             (Of::Column(column, of), _) => known.and_then(|errors| {
+                if let Value::TimeOfMin | Value::TimeOfMax = of {
+                    return self.error_of_time(run, (&errors.finer, errors.safety), column, *of, time);
+                }
                 let finer = self.measure_column(&errors.finer, column, *of).ok()?;
                 Some(errors.safety * (value - finer.value).abs() + ROUNDING * value.abs())
             }),
@@ -200,12 +205,31 @@ impl Quantity {
         let error = match self.of {
             Of::Work(Work::Seconds) => Some(SECONDS * value),
             Of::Work(_) | Of::End | Of::Trusted => Some(0.0),
+            Of::Column(ref column, of @ (Value::TimeOfMin | Value::TimeOfMax)) => {
+                self.error_of_time(run, (&other.trajectory, SAFETY), column, of, time)
+            }
             Of::Column(..) | Of::Contact(..) => self
                 .measure_run(other)
                 .ok()
                 .map(|other| SAFETY * (value - other.value).abs() + ROUNDING * value.abs()),
         };
         Ok(Collected { value, time, error: error.filter(|error| error.is_finite()), trusted: None })
+    }
+
+    /// The error \[s\] of the time of an extreme by a more accurate run with its factor of safety: no less than that of the times themselves.
+    fn error_of_time(
+        &self,
+        run: &Run,
+        (theirs, safety): (&Trajectory, f64),
+        column: &str,
+        of: Value,
+        time: f64,
+    ) -> Option<f64> {
+        let apart = (time - self.measure_column(theirs, column, of).ok()?.value).abs();
+        let within = self.within.unwrap_or((f64::NEG_INFINITY, f64::INFINITY));
+        let compared = Compared { ours: &run.trajectory, theirs, column, safety };
+        let error = compared.error_of_time(of == Value::TimeOfMax, time, within)?;
+        Some(error.max(safety * apart) + ROUNDING * time.abs())
     }
 }
 

@@ -1,0 +1,33 @@
+// Builds the pages: dist/view.html, of `flexion view`; dist/index.html with its engine beside it; dist/lab.html with the engine within.
+//
+//     node build/pages.mjs [ENGINE.wasm]
+import { execFileSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { gzipSync } from "node:zlib";
+
+const lab = join(import.meta.dirname, "..");
+const run = (...words) => execFileSync("npx", words, { cwd: lab, stdio: ["ignore", "ignore", "inherit"] });
+const file = (name) => join(lab, "dist", name);
+const kilobytes = (bytes) => `${(bytes.length / 1000).toFixed(0)} kB`;
+
+execFileSync("node", [join(lab, "build/gather.mjs")], { stdio: "inherit" });
+run("tsc");
+run("vite", "build", "--mode", "view");
+run("vite", "build");
+const page = readFileSync(file("index.html"), "utf8");
+const large = readFileSync(join(lab, "made/files.json"), "utf8");
+mkdirSync(file("files"), { recursive: true });
+for (const [name, text] of Object.entries(JSON.parse(large))) writeFileSync(join(lab, "dist/files", name), text);
+console.log(`view.html ${kilobytes(gzipSync(readFileSync(file("view.html"))))}, index.html ${kilobytes(gzipSync(page))} compressed`);
+
+const engine = process.argv[2] ?? join(lab, "../target/wasm32-unknown-unknown/wasm/flexion_lab.wasm");
+if (existsSync(engine)) {
+  const packed = gzipSync(readFileSync(engine), { level: 9 });
+  copyFileSync(engine, file("engine.wasm"));
+  const within = page.replace(">the engine<", () => `>${packed.toString("base64")}<`).replace(">{}<", () => `>${large.replaceAll("<", "\\u003c")}<`);
+  writeFileSync(file("lab.html"), within);
+  console.log(`engine.wasm ${kilobytes(packed)} compressed, lab.html ${kilobytes(readFileSync(file("lab.html")))} with it within`);
+} else {
+  console.log(`there is no engine at ${engine}: index.html needs engine.wasm beside it`);
+}

@@ -1,0 +1,236 @@
+// What is computed when: the newest case at once, its errors when it rests, nothing long before a click.
+import { nice } from "./text";
+import { Lane, load, Stopped, type Kind, type Reply, type Request } from "./engine";
+
+export interface Asked {
+  text: string;
+  files: Record<string, string>;
+  /** Changes of the text that come first. */
+  set?: string[];
+  kind: Kind;
+  /** Number of the text that it is about: another case or another text of the user has another. */
+  revision: number;
+  speed?: string;
+  /** Speeds of a Campbell diagram. */
+  range?: string;
+  /** A Campbell diagram of this case that there is already. */
+  diagram?: Reply;
+  /** More of the same will follow at once. */
+  sliding?: boolean;
+}
+
+interface Told {
+  /** Whether the case can be computed. */
+  checked(reply: Reply, text: string, asked: Asked): boolean;
+  answered(kind: Kind, reply: Reply, modes?: Reply): void;
+  said(words: string, share?: number, act?: "compute" | "stop"): void;
+  failed(words: string): void;
+}
+
+/** What a case may take before a click: two seconds of counted work [s], and memory [bytes]. */
+const [SECONDS, MEMORY] = [2, 256e6];
+/** Counted work that a common machine does in a second, where the engine does not say it. */
+const PER_SECOND = 1e6;
+/** Memory behind a click [bytes]. */
+const MOST = 1e9;
+/** What is asked without a click is ended after this time [s], whatever was counted. */
+const PATIENCE = 15;
+/** An older request that takes longer than this is not waited for [s]. */
+const SHORT = 0.25;
+
+/** A value of TOML without the quotes that a change does not need. */
+function bare(value: string): string {
+  const inner = /^"([^"\\,{}[\]#]+)"$/.exec(value)?.[1] ?? "";
+  return /[A-Za-z]/.test(inner) && !/^\s*([+-]?(inf|nan)|true|false|[\d.eE+-]+)\s*$/.test(inner) ? inner : value;
+}
+
+export class Computer {
+  /** Whether a click has lifted the limits. */
+  lifted = false;
+  readonly ready: Promise<Reply>;
+  private readonly module = load();
+  /** One worker for questions about the case, another for its answers. */
+  private readonly quick = new Lane(this.module);
+  private readonly runner = new Lane(this.module);
+  private wanted?: Asked;
+  private present?: Asked;
+  private running = false;
+  private perSecond = PER_SECOND;
+
+  constructor(private readonly told: Told) {
+    this.ready = this.begin();
+  }
+
+  private async begin(): Promise<Reply> {
+    const [version, keys] = [await this.quick.ask({ do: "version" }), await this.quick.ask({ do: "keys" })];
+    this.perSecond = version["work-per-second"] ?? PER_SECOND;
+    return { ...keys, ...version };
+  }
+
+  /** The newest that is wanted; what is older is given up. */
+  want(asked: Asked) {
+    // What earlier ones were to change is changed too.
+    const same = (one?: Asked) => (one?.revision === asked.revision ? one : undefined);
+    const [present, wanted] = [same(this.present), same(this.wanted)];
+    const before = asked.set ? [...((present?.text === asked.text && present?.set) || []), ...(wanted?.set ?? [])] : [];
+    const keys = new Set(asked.set?.map((change) => change.split("=")[0]));
+    const kept = before.filter((change) => !keys.has(change.split("=")[0]));
+    this.wanted = { ...asked, set: asked.set && [...kept, ...asked.set] };
+    if (this.runner.busy > SHORT) this.runner.stop();
+    if (!this.running) void this.pump();
+  }
+
+  /** Ends what is computed. */
+  stop(words?: string) {
+    this.wanted = undefined;
+    this.runner.stop();
+    if (words) this.told.said(words, undefined, "compute");
+  }
+
+  /** The text with changes. */
+  async change(text: string, set: string[], files: Record<string, string>): Promise<string> {
+    const reply = await this.quick.ask({ do: "change", case: text, set, files, limits: this.limits(false) });
+    if (reply.case === undefined) throw new Error(reply.problems?.[0]?.message ?? reply.message ?? "The case cannot be changed so.");
+    return reply.case;
+  }
+
+  /** How a text differs from another, as changes; nothing where that cannot be said. */
+  async difference(text: string, from: string, files: Record<string, string>): Promise<string[] | null | undefined> {
+    if (text === from) return [];
+    const { set } = await this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits(false) });
+    return set && Object.entries(set).map(([key, value]) => `${key}=${bare(value)}`);
+  }
+
+  /** The files that the program would write. */
+  files(asked: Asked): Promise<Reply> {
+    return this.quick.ask({ ...this.request(asked), do: "files", of: asked.kind, errors: true, limits: this.limits(true) });
+  }
+
+  private limits(lifted = this.lifted) {
+    return lifted ? { memory: MOST } : { work: SECONDS * this.perSecond, memory: MEMORY };
+  }
+
+  private async pump() {
+    this.running = true;
+    while (this.wanted) {
+      const asked = this.wanted;
+      [this.present, this.wanted] = [asked, undefined];
+      await this.one(asked).catch((error) => this.fell(error));
+    }
+    [this.running, this.present] = [false, undefined];
+  }
+
+  private fell(error: unknown) {
+    if (error instanceof Stopped && !error.fell) return;
+    const what = error instanceof Error ? error.message : String(error);
+    this.told.failed(`The engine stopped: ${what}. It has been started anew; change the case and it computes again.`);
+  }
+
+  private request({ text, files, kind, speed, range }: Asked): Request {
+    const request: Request = { do: kind, case: text, files, limits: this.limits() };
+    if (kind === "modes") request.speed = speed ?? "0 rad/s";
+    if (kind === "campbell") request.speeds = range;
+    return request;
+  }
+
+  private async one(asked: Asked) {
+    let { text } = asked;
+    const { files, set, kind } = asked;
+    if (set?.length) {
+      const reply = await this.quick.ask({ do: "change", case: text, files, set, limits: this.limits(false) });
+      if (reply.case === undefined) {
+        this.told.checked(reply, text, asked);
+        return;
+      }
+      text = reply.case;
+    }
+    const reply = await this.quick.ask({ do: "check", case: text, files, limits: this.limits(false) });
+    if (!this.told.checked(reply, text, asked)) return;
+    // A newer text is read first; under a slider every answer that is short is shown.
+    if (this.wanted && !asked.sliding) return;
+    if (!this.lifted && kind === "run" && (reply.work ?? 0) > SECONDS * this.perSecond) {
+      const seconds = Math.ceil((reply.work ?? 0) / this.perSecond);
+      this.told.said(`This takes some ${seconds} s or more.`, undefined, "compute");
+      return;
+    }
+    await this.answer({ ...asked, text, set: undefined });
+  }
+
+  private async answer(asked: Asked) {
+    const { kind } = asked;
+    this.told.said("computing …", undefined, "stop");
+    let first: Reply;
+    let modes: Reply | undefined;
+    if (kind === "campbell") {
+      const range = asked.range ?? (await this.range(asked));
+      first = asked.diagram ?? (await this.ask(this.request({ ...asked, range })));
+      if (!this.fine(first)) return;
+      modes = await this.ask({ ...this.request({ ...asked, kind: "modes" }), count: 6 });
+    } else {
+      first = await this.ask({ ...this.request(asked), ...(kind === "run" && { errors: false }) });
+      if (!this.fine(first)) return;
+    }
+    this.told.answered(kind, first, modes);
+    if (first.status === "given-up") {
+      this.told.said("This is as far as two seconds of work lead.", undefined, "compute");
+      return;
+    }
+    this.told.said("");
+    if (kind !== "run" || this.wanted) return;
+    if (asked.sliding) await new Promise((resolve) => setTimeout(resolve, 300));
+    if (this.wanted) return;
+    this.told.said("estimating the error …", undefined, "stop");
+    const whole = await this.ask({ ...this.request(asked), errors: true });
+    if (this.wanted) return;
+    // Where the companions took too long, the run stands without a band.
+    if (whole.results && whole.status !== "given-up") this.told.answered(kind, whole);
+    if (whole.status === "given-up") this.told.said("The error takes longer to estimate.", undefined, "compute");
+    else this.told.said("");
+  }
+
+  /** Speeds up to twice the lowest frequency, where the case says no speed. */
+  private async range(asked: Asked): Promise<string> {
+    const reply = await this.ask({ ...this.request({ ...asked, kind: "modes" }), speed: "0 rad/s", unit: "rad/s", count: 8 });
+    const modes = (reply.summary?.modes ?? []) as { frequency: number }[];
+    const lowest = modes.map(({ frequency }) => frequency).filter((frequency) => frequency > 1e-6);
+    return `0 rad/s:${nice(2 * (lowest[0] ?? 5))} rad/s:31`;
+  }
+
+  /** Whether there is something to be drawn; else it says why not. */
+  private fine(reply: Reply): boolean {
+    if (reply.results) return true;
+    if (reply.status === "given-up") {
+      this.told.said("This takes more than two seconds.", undefined, "compute");
+      return false;
+    }
+    const words = reply.problems?.map(({ message }) => message).join("; ") || reply.message || "There is no answer.";
+    this.told.failed(words);
+    return false;
+  }
+
+  private async ask(request: Request): Promise<Reply> {
+    const limit = this.lifted ? undefined : setTimeout(() => this.runner.stop("it took too long", true), 1000 * PATIENCE);
+    let last = 0;
+    try {
+      return await this.runner.ask(request, (text) => {
+        const now = performance.now();
+        if (now - last < 50) return;
+        last = now;
+        this.progress(text);
+      });
+    } finally {
+      clearTimeout(limit);
+    }
+  }
+
+  private progress(text: string) {
+    try {
+      const { phase, time, end } = JSON.parse(text);
+      const share = typeof time === "number" && end > 0 ? time / end : undefined;
+      const words = phase === "errors" ? "estimating the error …" : "computing …";
+      this.told.said(words, share, "stop");
+    } catch {
+      // A notice that cannot be read says nothing.
+    }
+  }
+}

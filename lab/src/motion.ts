@@ -1,0 +1,253 @@
+// A run in motion.
+import { Vector3 } from "three";
+import { numbers, type Results } from "./data";
+import { Columns } from "./curves";
+import { Player } from "./player";
+import type { Drawn, Kept, Room } from "./room";
+import { extent, instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
+import { Stage, type View } from "./stage";
+import { nice, steady, text } from "./text";
+import { button, choice, toggle } from "./tools";
+
+/** Pieces of the beam between neighbouring stations. */
+const PIECES = 3;
+/** Angle of rotation [rad] that a piece of the path of the tip covers. */
+const TURN = 0.1;
+/** Playing takes between these times [s], where the run does not. */
+const LASTS = [4, 20];
+/** A deflection over length that is well seen: smaller ones are drawn larger. */
+const SEEN = 0.05;
+
+/** How many seconds of the run a second shows. */
+function speed(span: number): number {
+  const [least, most] = LASTS;
+  if (span === 0) return 1;
+  return span < least ? nice(span / least) : span > most ? 2 * nice(span / most) : 1;
+}
+
+/** Draws a run; `other` is one that it is compared with, `kept` what is to be as it was in an answer before. */
+export function motion(results: Results, room: Room, kept?: Kept, other?: Results): Drawn {
+  const space = scene(results.scene);
+  const { times, parts } = space;
+  const still: Section = { position: new Vector3(), turned: pose(parts[0], { from: 0, to: 0, share: 0 }).turned.identity() };
+  const stage = new Stage(room, space);
+  const beams = parts.filter((part) => part.beam);
+  const straight = beams.length > 0 && beams.every((part) => part.beam!.straight);
+  // Tips of beams, or bodies where there is no beam.
+  const followed = (beams.length > 0 ? beams : parts).slice(0, 12);
+  const { curves: table } = results;
+  const recorded = numbers(table!.times);
+  const columns = table!.columns.map((column) => ({
+    ...column,
+    values: numbers(column.values),
+    error: banded(column.error),
+    other: compared(column.name),
+  }));
+  if (kept?.shown?.some((name) => columns.some((column) => column.name === name))) {
+    for (const column of columns) column.shown = kept.shown.includes(column.name);
+  }
+  // Where none is of the usual ones, the first few.
+  if (!columns.some((column) => column.shown)) for (const column of columns.slice(0, 3)) column.shown = true;
+  const pinned = other && Object.keys(other.scene).length > 0 ? scene(other.scene) : undefined;
+  const revolutions = turns() / (2 * Math.PI);
+  // Beyond half a revolution between frames nobody sees which way it turns.
+  let factor = kept?.factor ?? suggested();
+  let rotating = kept?.rotating ?? revolutions > 0.5;
+  let path = kept?.path ?? true;
+  const forces = space.forces.map(({ values }) => values);
+  const strongest = Math.max(0, ...forces.map((values) => largest(values.filter((_, i) => i % 6 > 2))));
+
+  /** Half-widths of a band, of one number until the time until which it is trusted. */
+  function banded(error: string | number | null | undefined): Float64Array | undefined {
+    if (typeof error === "string") return numbers(error);
+    return error ? recorded.map((time) => (time <= (table!.trusted ?? Infinity) ? error : NaN)) : undefined;
+  }
+
+  /** A column of the other run, at the times of this one. */
+  function compared(name: string): Float64Array | undefined {
+    const column = other?.curves?.columns.find((column) => column.name === name);
+    if (!column) return undefined;
+    const [times, values] = [numbers(other!.curves!.times), numbers(column.values)];
+    return recorded.map((time) => {
+      if (time > times[times.length - 1]) return NaN;
+      const { from, to, share } = instant(times, time);
+      return values[from] + share * (values[to] - values[from]);
+    });
+  }
+
+  /** Forces as arrows, the largest a fifth of the size. */
+  function arrows(at: Instant): [Vector3, Vector3][] {
+    const drawn = forces.flatMap((values): [Vector3, Vector3][] => {
+      const entry = (i: number) => values[6 * at.from + i] + at.share * (values[6 * at.to + i] - values[6 * at.from + i]);
+      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar((0.2 * stage.size) / (strongest || 1));
+      return along.length() > 1e-3 * stage.size ? [[new Vector3(entry(0), entry(1), entry(2)), along]] : [];
+    });
+    return drawn;
+  }
+
+  /** The beams of the other run. */
+  function others(time: number): Vector3[][] {
+    if (!pinned) return [];
+    const at = instant(pinned.times, time);
+    const drawn = pinned.parts.filter((part) => part.beam);
+    return drawn.map((part) => sections(part, at, factor, PIECES).map((section) => section.position));
+  }
+
+  /** The largest angle [rad] by which the first part or its hub turns between neighbouring times. */
+  function turns(): number {
+    const angle = columns.find((column) => column.name === "hub.angle")?.values;
+    const hub = (time: number) => {
+      const { from, to, share } = instant(recorded, time);
+      return angle ? angle[from] + share * (angle[to] - angle[from]) : 0;
+    };
+    let most = 0;
+    for (let i = 1; i < times.length; i++) {
+      const [before, now] = [i - 1, i].map((k) => pose(parts[0], { from: k, to: k, share: 0 }).turned);
+      most = Math.max(most, before.angleTo(now), Math.abs(hub(times[i]) - hub(times[i - 1])));
+    }
+    return most;
+  }
+
+  /** The factor that makes small deflections visible; with obstacles there is none, for gaps are not drawn larger. */
+  function suggested(): number {
+    if (space.outlines.length > 0 || !straight) return 1;
+    const over = Math.max(...parts.map(({ beam }) => (beam ? largest(beam.displacements) : 0))) / stage.size;
+    // What is rounding is not drawn larger.
+    return over > 1e-9 && over < SEEN / 4 ? nice(SEEN / over) : 1;
+  }
+
+  /** The axes of the first part, at the centre of its hub. */
+  function frame(at: Instant): Section {
+    if (!rotating) return still;
+    const root = pose(parts[0], at);
+    const hub = new Vector3(parts[0].beam?.hub ?? 0, 0, 0).applyQuaternion(root.turned);
+    return { position: root.position.sub(hub), turned: root.turned };
+  }
+
+  const shapes = (at: Instant) => parts.map((part) => (part.beam ? sections(part, at, factor, PIECES) : undefined));
+
+  function outline(points: Float64Array, at: Instant): Vector3[] {
+    const count = points.length / times.length;
+    return Array.from({ length: count / 3 }, (_, k) => {
+      const vertex = (i: number) => new Vector3().fromArray(points, count * i + 3 * k);
+      return vertex(at.from).lerp(vertex(at.to), at.share);
+    });
+  }
+
+  const pieces = Math.min(Math.max(Math.ceil((2 * Math.PI * revolutions) / TURN), 2), 16);
+  const instants = Array.from({ length: pieces * (times.length - 1) + 1 }, (_, k): Instant => {
+    const from = Math.min(Math.floor(k / pieces), times.length - 1);
+    return { from, to: Math.min(from + 1, times.length - 1), share: (k % pieces) / pieces };
+  });
+
+  /** A point as it is seen from the frame of reference. */
+  const seen = (point: Vector3, { position, turned }: Section) =>
+    point.clone().sub(position).applyQuaternion(turned.clone().conjugate());
+
+  /** The paths of what is followed. */
+  function trace() {
+    const end = (part: Part, at: Instant) => (part.beam ? sections(part, at, factor, 1).at(-1)! : pose(part, at));
+    const trail = (part: Part) => instants.map((at) => seen(end(part, at).position, frame(at)));
+    stage.trace(path ? followed.map(trail) : []);
+  }
+
+  function fit() {
+    const every = Math.max(1, Math.floor(instants.length / 150));
+    const points = instants.filter((_, k) => k % every === 0).flatMap((at) => {
+      const now = frame(at);
+      const places = parts.flatMap((part) => extent(part, at, factor));
+      const closed = space.outlines.filter(({ points }) => points.length / times.length > 6);
+      places.push(...closed.flatMap(({ points }) => outline(points, at)));
+      places.push(now.position);
+      return places.map((point) => seen(point, now));
+    });
+    const hub = Math.max(0, ...parts.map((part) => part.beam?.hub ?? 0));
+    if (hub > 0) for (const x of [-hub, hub]) points.push(new Vector3(x, x, 0));
+    stage.fit(points);
+  }
+
+  function draw(time: number) {
+    const at = instant(times, time);
+    const outlines = space.outlines.map(({ points }) => outline(points, at));
+    stage.place({
+      poses: parts.map((part) => pose(part, at)),
+      sections: shapes(at),
+      outlines,
+      frame: frame(at),
+      others: others(time),
+      forces: arrows(at),
+    });
+    stage.follow(Math.floor(pieces * (at.from + at.share)) + 1);
+    stage.render();
+  }
+
+  const [start, end] = [times[0], times[times.length - 1]];
+  room.subtitle.textContent =
+    `${results.name === results.title ? "" : `${results.name}, `}${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
+  let player: Player | undefined;
+  // Of one time there are values, but no curves.
+  room.curves.hidden = recorded.length < 2;
+  const curves = new Columns(room, recorded, columns, table!.trusted ?? undefined, (time) => {
+    player?.play(false);
+    player?.seek(time);
+  });
+  const note = () => {
+    const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
+    const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in its own frame.`;
+    const blind = stage.shown ? "" : "This browser has no WebGL: there is no picture, but curves.";
+    const forced = strongest > 0 ? `Arrows are forces, the longest ${text(strongest, 3)} N.` : "";
+    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, larger];
+    room.note.textContent = parts.join(" ").trim();
+  };
+  const again = (fitted = false) => {
+    trace();
+    note();
+    if (!fitted) fit();
+    draw(player?.time ?? start);
+  };
+  button(room, "Fit", "f", fit);
+  if (!space.planar) {
+    const views: [string, View][] = [["space", "space"], ["x, y", "xy"], ["x, z", "xz"], ["y, z", "yz"]];
+    choice<View>(room, "View", views, "space", (view) => {
+      stage.turn(view);
+      fit();
+    });
+  }
+  const named = parts[0].beam?.hub === undefined ? `Frame of ${parts[0].name}` : "Rotating frame";
+  toggle(room, named, "r", rotating, (on) => {
+    rotating = on;
+    again();
+  });
+  toggle(room, beams.length > 0 ? "Tip path" : "Paths", "p", path, (on) => {
+    path = on;
+    trace();
+    draw(player!.time);
+  });
+  if (straight) {
+    const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 1000, factor])].sort((a, b) => a - b);
+    choice(room, "Deflection", factors.map((x): [string, number] => [`${text(x)} ×`, x]), factor, (x) => {
+      factor = x;
+      again();
+    });
+  }
+  const show = (time: number) => {
+    draw(time);
+    curves.show(time);
+  };
+  player = new Player(room, times, (time) => `${steady(time)} s`, show, speed(end - start), kept);
+  let fitted = kept?.seen !== undefined && stage.look(kept.seen);
+  const resized = () => {
+    if (fitted) draw(player!.time);
+    else fit();
+    fitted = true;
+  };
+  room.canvas.addEventListener("resized", resized, { signal: room.signal });
+  again(fitted);
+  player.seek(player.time);
+  return {
+    kept: () => ({ ...player!.kept, factor, rotating, path, seen: stage.seen, shown: curves.shown }),
+    seek: (share) => player!.seek(start + share * (end - start)),
+    play: (on) => player!.play(on),
+    seconds: player.seconds,
+  };
+}

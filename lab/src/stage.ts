@@ -1,0 +1,414 @@
+// The picture in space: parts, obstacles, the path of the tip, a scale.
+import * as THREE from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Line2 } from "three/addons/lines/Line2.js";
+import { LineGeometry } from "three/addons/lines/LineGeometry.js";
+import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import type { Room } from "./room";
+import type { Part, Scene, Section } from "./scene";
+import { nice, text } from "./text";
+
+/** What stands where at one time. */
+export interface Picture {
+  /** Pose of every part. */
+  poses: Section[];
+  /** Sections of every part that is a beam. */
+  sections: (Section[] | undefined)[];
+  /** Points of every obstacle. */
+  outlines: THREE.Vector3[][];
+  /** Axes of the beams of the answer it is compared with. */
+  others?: THREE.Vector3[][];
+  /** Forces: where, and an arrow. */
+  forces?: [THREE.Vector3, THREE.Vector3][];
+  /** The frame of reference: what is drawn is seen from it. */
+  frame: Section;
+}
+
+/** Where a picture is looked from. */
+export interface Seen {
+  size: number;
+  position: THREE.Vector3;
+  up: THREE.Vector3;
+  target: THREE.Vector3;
+  zoom: number;
+}
+
+export type View = "xy" | "xz" | "yz" | "space";
+
+const directions: Record<View, [THREE.Vector3, THREE.Vector3]> = {
+  xy: [new THREE.Vector3(0, 0, 1), new THREE.Vector3(0, 1, 0)],
+  xz: [new THREE.Vector3(0, -1, 0), new THREE.Vector3(0, 0, 1)],
+  yz: [new THREE.Vector3(1, 0, 0), new THREE.Vector3(0, 0, 1)],
+  space: [new THREE.Vector3(0.5, -0.75, 0.45), new THREE.Vector3(0, 0, 1)],
+};
+
+/** Colours by the names of the style sheet. */
+const colour = (name: string) =>
+  new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+
+/** One renderer a canvas: browsers allow few of them. */
+const renderers = new WeakMap<HTMLCanvasElement, THREE.WebGLRenderer>();
+
+/** None where the browser has no WebGL. */
+function renderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefined {
+  if (renderers.has(canvas)) return renderers.get(canvas);
+  const context = canvas.getContext("webgl2", { antialias: true, alpha: true, preserveDrawingBuffer: true });
+  if (!context) return undefined;
+  const made = new THREE.WebGLRenderer({ canvas, context });
+  renderers.set(canvas, made);
+  return made;
+}
+
+class Line {
+  readonly object: Line2;
+  private readonly material: LineMaterial;
+
+  constructor(
+    readonly name: string,
+    width: number,
+    dash = 0,
+  ) {
+    this.material = new LineMaterial({ linewidth: width, dashed: dash > 0, dashSize: dash, gapSize: dash });
+    this.object = new Line2(new LineGeometry(), this.material);
+    this.object.frustumCulled = false;
+    this.object.visible = false;
+  }
+
+  place(points: THREE.Vector3[]) {
+    if (points.length < 2) return;
+    // A new geometry only where the number of points changes.
+    const flat = points.flatMap((p) => [p.x, p.y, p.z]);
+    const start = this.object.geometry.getAttribute("instanceStart") as THREE.InterleavedBufferAttribute | undefined;
+    if (start?.count === points.length - 1) {
+      const buffer = start.data.array as Float32Array;
+      for (let i = 0; i + 1 < points.length; i++) buffer.set(flat.slice(3 * i, 3 * i + 6), 6 * i);
+      start.data.needsUpdate = true;
+    } else {
+      this.object.geometry.dispose();
+      this.object.geometry = new LineGeometry();
+      this.object.geometry.setPositions(flat);
+    }
+    if (this.material.dashed) this.object.computeLineDistances();
+    this.object.visible = true;
+  }
+
+  paint() {
+    this.material.color = colour(this.name);
+  }
+}
+
+/** A beam as a prism of its section, with its axis. */
+class Body {
+  readonly group = new THREE.Group();
+  private readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial>;
+  private readonly axis = new Line("beam", 2.5);
+  private readonly rigid: Line;
+
+  constructor(private readonly part: Part) {
+    this.mesh = new THREE.Mesh(
+      new THREE.BufferGeometry(),
+      new THREE.MeshLambertMaterial({ flatShading: true, side: THREE.DoubleSide, transparent: true, opacity: 0.75 }),
+    );
+    this.mesh.frustumCulled = false;
+    const { stations } = part.beam!;
+    this.rigid = new Line("faint", 1.25, (stations[stations.length - 1] - stations[0]) / 60);
+    this.group.add(this.rigid.object, this.mesh, this.axis.object);
+  }
+
+  place(root: Section, sections: Section[]) {
+    const [height, width] = this.part.beam!.section;
+    const corners = [
+      [-1, -1],
+      [1, -1],
+      [1, 1],
+      [-1, 1],
+    ].map(([a, b]) => new THREE.Vector3(0, (a * height) / 2, (b * width) / 2));
+    const points = sections.flatMap((section) =>
+      corners.flatMap((corner) => corner.clone().applyQuaternion(section.turned).add(section.position).toArray()),
+    );
+    const { geometry } = this.mesh;
+    const position = geometry.getAttribute("position") as THREE.BufferAttribute | undefined;
+    if (position?.array.length === points.length) {
+      (position.array as Float32Array).set(points);
+      position.needsUpdate = true;
+    } else {
+      const last = 4 * (sections.length - 1);
+      const index = [0, 1, 2, 0, 2, 3, last, last + 2, last + 1, last, last + 3, last + 2];
+      for (let k = 0; k < last; k += 4) {
+        for (let i = 0; i < 4; i++) {
+          const [a, b] = [k + i, k + ((i + 1) % 4)];
+          index.push(a, a + 4, b, b, a + 4, b + 4);
+        }
+      }
+      geometry.setAttribute("position", new THREE.Float32BufferAttribute(points, 3));
+      geometry.setIndex(index);
+    }
+    this.axis.place(sections.map((section) => section.position));
+    const { stations, straight } = this.part.beam!;
+    if (!straight) return;
+    const along = new THREE.Vector3(stations[stations.length - 1] - stations[0], 0, 0);
+    this.rigid.place([root.position, along.applyQuaternion(root.turned).add(root.position)]);
+  }
+
+  paint() {
+    this.mesh.material.color = colour("body");
+    this.axis.paint();
+    this.rigid.paint();
+  }
+}
+
+/** A hub as a disc, or a rigid body as a box. */
+class Solid {
+  readonly group = new THREE.Group();
+  private readonly edge = new Line("hub", 1.5);
+  private readonly edges = new THREE.LineBasicMaterial();
+  private readonly mesh: THREE.Mesh<THREE.BufferGeometry, THREE.MeshLambertMaterial>;
+
+  constructor(part: Part, size: number) {
+    const material = new THREE.MeshLambertMaterial({ side: THREE.DoubleSide, transparent: true, opacity: 0.35 });
+    if (part.box) {
+      const [x, y, z, a, b, c] = part.box;
+      this.mesh = new THREE.Mesh(new THREE.BoxGeometry(a, b, c), material);
+      this.mesh.position.set(x, y, z);
+      this.mesh.add(new THREE.LineSegments(new THREE.EdgesGeometry(this.mesh.geometry), this.edges));
+    } else {
+      const radius = part.beam?.hub || 0.012 * size;
+      const around = Array.from({ length: 73 }, (_, k) => (k * Math.PI) / 36);
+      const circle = around.map((a) => new THREE.Vector3(radius * Math.cos(a), radius * Math.sin(a), 0));
+      this.mesh = new THREE.Mesh(new THREE.CircleGeometry(radius, 72), material);
+      this.edge.place(circle);
+      // The centre of the hub lies behind the root.
+      for (const object of [this.mesh, this.edge.object]) object.position.x = -(part.beam?.hub ?? 0);
+    }
+    this.group.add(this.mesh, this.edge.object);
+  }
+
+  place(root: Section) {
+    this.group.position.copy(root.position);
+    this.group.quaternion.copy(root.turned);
+  }
+
+  paint() {
+    this.mesh.material.color = colour("hub");
+    this.edges.color = colour("hub");
+    this.edge.paint();
+  }
+}
+
+export class Stage {
+  readonly size: number;
+  private readonly renderer: THREE.WebGLRenderer | undefined;
+  private readonly camera = new THREE.OrthographicCamera();
+  private readonly controls: OrbitControls;
+  private readonly space = new THREE.Scene();
+  private readonly world = new THREE.Group();
+  private readonly bodies: (Body | undefined)[];
+  private readonly solids: (Solid | undefined)[];
+  private readonly outlines: Line[];
+  private paths: Line[] = [];
+  private readonly others: Line[] = [];
+  private readonly forces: Line[] = [];
+  private readonly axes: Line[];
+
+  private readonly canvas: HTMLCanvasElement;
+  private readonly bar: HTMLElement;
+
+  constructor({ canvas, scale, signal }: Room, scene: Scene) {
+    [this.canvas, this.bar] = [canvas, scale];
+    this.renderer = renderer(canvas);
+    const length = ({ beam, box }: Part) =>
+      beam ? (beam.hub ?? 0) + beam.stations[beam.stations.length - 1] : Math.max(...box!.slice(3));
+    this.size = Math.max(...scene.parts.map(length));
+    this.bodies = scene.parts.map((part) => part.beam && new Body(part));
+    this.solids = scene.parts.map((part) =>
+      part.box || part.beam?.hub !== undefined ? new Solid(part, this.size) : undefined,
+    );
+    this.outlines = scene.outlines.map(() => new Line("obstacle", 2.5));
+    this.axes = scene.planar ? [] : ["x", "y", "z"].map((name) => new Line(name, 1.5));
+    const names = this.axes.map(({ name }) => {
+      const letter = Object.assign(document.createElement("b"), { textContent: name });
+      letter.style.color = `var(--${name})`;
+      return letter;
+    });
+    scale.after(...names);
+    this.axes.forEach((axis, i) => {
+      const end = new THREE.Vector3().setComponent(i, 0.15 * this.size);
+      axis.place([new THREE.Vector3(), end]);
+    });
+    const groups = [...this.bodies, ...this.solids].flatMap((drawn) => (drawn ? [drawn.group] : []));
+    const lines = [...this.outlines, ...this.axes];
+    this.world.add(...groups, ...lines.map((line) => line.object));
+    this.space.add(this.world, new THREE.AmbientLight(0xffffff, 1.6), this.camera);
+    const light = new THREE.DirectionalLight(0xffffff, 2);
+    light.position.set(-0.4, 0.6, 1);
+    this.camera.add(light);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.enableRotate = !scene.planar;
+    if (scene.planar) {
+      this.controls.mouseButtons.LEFT = THREE.MOUSE.PAN;
+      this.controls.touches.ONE = THREE.TOUCH.PAN;
+    }
+    this.controls.addEventListener("change", () => this.render());
+    const observer = new ResizeObserver(() => this.resize());
+    observer.observe(canvas.parentElement!);
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint(), { signal });
+    signal.addEventListener("abort", () => {
+      observer.disconnect();
+      this.controls.dispose();
+      const materials: THREE.Material[] = [];
+      this.space.traverse((object) => {
+        const { geometry, material } = object as THREE.Mesh;
+        geometry?.dispose();
+        materials.push(...[material ?? []].flat());
+      });
+      // A shader that no material uses is compiled anew: the next answer uses it first.
+      setTimeout(() => materials.forEach((material) => material.dispose()), 2000);
+    });
+    this.paint();
+    this.turn(scene.planar ? "xy" : "space");
+  }
+
+  /** Looks from a side. */
+  turn(view: View) {
+    const [direction, up] = directions[view];
+    this.camera.up.copy(up);
+    this.controls.target.set(0, 0, 0);
+    this.camera.position.copy(direction).setLength(20 * this.size);
+    this.camera.near = 0.1 * this.size;
+    this.camera.far = 40 * this.size;
+    this.controls.update();
+  }
+
+  /** Shows all the points. */
+  fit(points: THREE.Vector3[]) {
+    this.camera.updateMatrixWorld();
+    const seen = points.map((point) => point.clone().applyMatrix4(this.camera.matrixWorldInverse));
+    const box = new THREE.Box3().setFromPoints(seen);
+    const [centre, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())];
+    const shift = new THREE.Vector3(centre.x, centre.y, 0).applyQuaternion(this.camera.quaternion);
+    this.controls.target.add(shift);
+    this.camera.position.add(shift);
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
+    const [right, top] = [this.camera.right, this.camera.top];
+    // Room for the tools above and the scale below.
+    const margin = Math.min(0.2 * height, 52);
+    const floor = 0.05 * this.size;
+    this.camera.zoom = Math.min(
+      (2 * right * 0.9) / Math.max(size.x, floor),
+      (2 * top * ((height - 2 * margin) / height)) / Math.max(size.y, floor),
+    );
+    if (width === 0) this.camera.zoom = 1;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.render();
+  }
+
+  /** Places everything. */
+  place(picture: Picture) {
+    const { position, turned } = picture.frame;
+    this.world.quaternion.copy(turned).conjugate();
+    this.world.position.copy(position).negate().applyQuaternion(this.world.quaternion);
+    picture.poses.forEach((pose, i) => {
+      const sections = picture.sections[i];
+      if (sections) this.bodies[i]?.place(pose, sections);
+      this.solids[i]?.place(pose);
+    });
+    picture.outlines.forEach((points, i) => this.outlines[i].place(points));
+    this.draw(this.others, picture.others ?? [], () => new Line("curve1", 2.5, this.size / 40));
+    this.draw(this.forces, (picture.forces ?? []).map(([at, along]) => this.arrow(at, along)), () => new Line("force", 2));
+  }
+
+  /** Whether there is a picture at all. */
+  get shown(): boolean {
+    return this.renderer !== undefined;
+  }
+
+  /** Where it is looked from. */
+  get seen(): Seen {
+    const { position, up, zoom } = this.camera;
+    return { size: this.size, position: position.clone(), up: up.clone(), target: this.controls.target.clone(), zoom };
+  }
+
+  /** Looks from where another was seen, if that was of the same size. */
+  look({ size, position, up, target, zoom }: Seen): boolean {
+    if (Math.abs(size / this.size - 1) > 0.3) return false;
+    this.camera.position.copy(position);
+    this.camera.up.copy(up);
+    this.camera.zoom = zoom;
+    this.controls.target.copy(target);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    return true;
+  }
+
+  /** As many lines as there are lists of points. */
+  private draw(lines: Line[], all: THREE.Vector3[][], make: () => Line) {
+    while (lines.length < all.length) {
+      const line = make();
+      line.paint();
+      this.world.add(line.object);
+      lines.push(line);
+    }
+    lines.forEach((line, i) => {
+      if (all[i]) line.place(all[i]);
+      line.object.visible = all[i] !== undefined && all[i].length > 1;
+    });
+  }
+
+  private arrow(at: THREE.Vector3, along: THREE.Vector3): THREE.Vector3[] {
+    const end = at.clone().add(along);
+    const sight = this.camera.position.clone().sub(this.controls.target);
+    const side = along.clone().cross(sight.applyQuaternion(this.world.quaternion.clone().conjugate()));
+    side.setLength(0.12 * along.length());
+    const neck = at.clone().addScaledVector(along, 0.75);
+    return [at, end, neck.clone().add(side), end, neck.clone().sub(side)];
+  }
+
+  /** Paths of points, as seen from the frame of reference. */
+  trace(paths: THREE.Vector3[][]) {
+    for (const { object } of this.paths) {
+      this.space.remove(object);
+      object.geometry.dispose();
+    }
+    this.paths = paths.map((points) => {
+      const line = new Line("path", 1.5);
+      line.place(points);
+      line.paint();
+      this.space.add(line.object);
+      return line;
+    });
+  }
+
+  /** Draws the first `count` points of the paths. */
+  follow(count: number) {
+    for (const { object } of this.paths) object.geometry.instanceCount = Math.max(count - 1, 0);
+  }
+
+  render() {
+    if (!this.renderer || this.canvas.clientWidth === 0) return;
+    this.renderer.render(this.space, this.camera);
+    const pixel = (this.camera.right - this.camera.left) / this.camera.zoom / this.canvas.clientWidth;
+    const length = nice(110 * pixel);
+    this.bar.style.width = `${length / pixel}px`;
+    this.bar.textContent = `${text(length)} m`;
+  }
+
+  private resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
+    if (width === 0 || height === 0) return;
+    this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer?.setSize(width, height, false);
+    const half = this.size;
+    const ratio = width / height;
+    [this.camera.left, this.camera.right] = [-half * ratio, half * ratio];
+    [this.camera.bottom, this.camera.top] = [-half, half];
+    this.camera.updateProjectionMatrix();
+    this.canvas.dispatchEvent(new Event("resized"));
+  }
+
+  private paint() {
+    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.forces];
+    for (const drawn of [...this.bodies, ...this.solids, ...lines]) drawn?.paint();
+  }
+}

@@ -1,0 +1,39 @@
+// Numbers as text.
+
+/** The largest of 1, 2 and 5 times a power of ten that is not above `x`. */
+export function nice(x: number): number {
+  const power = 10 ** Math.floor(Math.log10(x));
+  return [5, 2, 1].map((step) => step * power).find((step) => step <= x * (1 + 1e-9)) ?? power;
+}
+
+/** A number with some digits, with a true minus. */
+export function text(x: number, digits = 4): string {
+  if (!Number.isFinite(x)) return "–";
+  const [size, short] = [Math.abs(x), Number(x.toPrecision(digits))];
+  const plain = size === 0 || (size >= 1e-3 && size < 1e5);
+  return (plain ? String(short) : short.toExponential()).replace(/-/g, "−").replace("e+", "e");
+}
+
+/** A number with as many digits each time, so that it does not jump. */
+export function steady(x: number): string {
+  if (!Number.isFinite(x)) return "–";
+  const size = Math.abs(x);
+  const digits = size >= 1e5 || (size < 1e-3 && size > 0) ? x.toExponential(3) : x.toFixed(size >= 100 ? 1 : 4);
+  return digits.replace(/-/g, "−").replace("e+", "e");
+}
+
+const PER_SECOND: Record<string, number> = { "rad/s": 1, rpm: Math.PI / 30, "deg/s": Math.PI / 180, Hz: 2 * Math.PI, "1/s": 2 * Math.PI };
+
+/** How many rad/s a unit of speed or frequency is. */
+export const inRadians = (unit: string) => PER_SECOND[unit] ?? 1;
+
+/** At most so many intervals between round numbers within a range. */
+export function ticks(low: number, high: number, count = 5): number[] {
+  if (!(high > low)) return [low];
+  const least = (high - low) / count;
+  // The next of 1, 2, 5 and 10 times a power of ten.
+  const step = [1, 2, 2.5, 5].map((by) => by * nice(least)).find((step) => nice(step) === step && step >= least * (1 - 1e-9)) ?? least;
+  const first = Math.ceil(low / step - 1e-9);
+  const last = Math.floor(high / step + 1e-9);
+  return Array.from({ length: Math.min(last - first + 1, 100) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
+}

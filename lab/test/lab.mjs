@@ -1,0 +1,252 @@
+// Journeys through the lab in Chromium, as its reader takes them.
+//
+//     node test/lab.mjs CHROMIUM [SITE/lab] [--pictures DIR] [--only WORD]
+import assert from "node:assert/strict";
+import { join, resolve } from "node:path";
+import { deflateRawSync } from "node:zlib";
+import { answered, launch, opened, serve } from "./open.mjs";
+
+const option = (name) => {
+  const at = process.argv.indexOf(name);
+  return at > 0 ? process.argv.splice(at, 2)[1] : undefined;
+};
+const [pictures, only] = [option("--pictures"), option("--only")];
+const [program, folder = join(import.meta.dirname, "../dist")] = process.argv.slice(2);
+const browser = await launch(program);
+const { address, close } = await serve(folder);
+const lab = `${address}/index.html`;
+
+/** What the table states of a quantity: least, greatest, last. */
+const values = (page, name) =>
+  page.$$eval(".values tr", (rows, name) => {
+    const row = rows.find((row) => row.querySelector("th")?.textContent.trim().startsWith(name));
+    return [...row.querySelectorAll("td")].map((cell) => cell.firstChild.textContent + (cell.querySelector(":scope > .error")?.textContent ?? ""));
+  }, name);
+const number = (stated) => Number(stated.split("±")[0].replace("−", "-").replace(/\s/g, ""));
+const fragment = (page) => page.evaluate(() => location.hash);
+
+/** Moves a slider to a share of its range, in steps. */
+async function slide(page, key, share, steps = 10) {
+  await page.$eval(`input[type=range][aria-label="${key}"]`, async (slider, [share, steps]) => {
+    const start = Number(slider.value);
+    for (let k = 1; k <= steps; k++) {
+      slider.value = String(Math.round(start + ((share * Number(slider.max) - start) * k) / steps));
+      slider.dispatchEvent(new Event("input"));
+      await new Promise((resolve) => setTimeout(resolve, 20));
+    }
+    slider.dispatchEvent(new Event("change"));
+  }, [share, steps]);
+}
+
+/** Writes another text into the editor. */
+async function edit(page, from, to) {
+  if (await page.locator("#text").isHidden()) await page.click("#tab-text");
+  const text = await page.$$eval("#text .cm-line", (lines) => lines.map((line) => line.textContent).join("\n"));
+  assert.ok(text.includes(from), `the editor holds ${from}`);
+  await page.click("#text .cm-content");
+  await page.keyboard.press("ControlOrMeta+a");
+  await page.keyboard.insertText(text.replace(from, to));
+}
+
+const journeys = {
+  async "a link is opened"(page, { requested }) {
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    assert.match(await page.textContent("#title"), /spin-up to 4 rad\/s/);
+    const [least] = await values(page, "tip.deflection");
+    assert.ok(Math.abs(number(least) + 0.4003) < 1e-3 && least.includes("±"), `the least deflection is ${least}`);
+    const paths = requested.map((url) => url.replace(address, ""));
+    assert.ok(paths.every((path) => ["/index.html", "/engine.wasm"].includes(path)), `requested: ${paths}`);
+    const nameless = await page.$$eval("button, select, input, summary, a", (all) =>
+      all.filter((e) => !e.closest("[hidden]") && !(e.ariaLabel || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML));
+    assert.deepEqual(nameless, [], "everything that acts has a name");
+    const pixels = () => page.locator("#canvas").screenshot();
+    const first = await pixels();
+    await page.waitForTimeout(700);
+    assert.ok(!first.equals(await pixels()), "the beam moves");
+  },
+  async "a slider moves the answer"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    const before = number((await values(page, "tip.deflection"))[0]);
+    const faded = page.evaluate(() => new Promise((resolve) => {
+      new MutationObserver(() => document.querySelector("#result").classList.contains("stale") && resolve(true)).observe(document.querySelector("#result"), { attributes: true });
+      setTimeout(() => resolve(false), 3000);
+    }));
+    await slide(page, "hub.motion.speed", 0.75);
+    assert.ok(await faded, "the old answer fades under a new slider");
+    await answered(page);
+    const after = number((await values(page, "tip.deflection"))[0]);
+    assert.ok(after < 1.2 * before, `8 rad/s bend it more: ${after} m, 4 rad/s ${before} m`);
+    await page.waitForFunction(() => location.hash.includes("set=hub.motion.speed"));
+    assert.match(await page.inputValue("#key-hub\\.motion\\.speed"), /^8(\.\d+)? rad\/s$/);
+  },
+  async "a case is broken and mended by the message"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    await edit(page, "10 m\"", "10 kg\"");
+    await page.waitForSelector("#problems li");
+    assert.match(await page.textContent("#problems"), /unit of mass, not of length/);
+    assert.ok(await page.evaluate(() => document.querySelector("#result").classList.contains("stale")), "no answer stands under a broken case");
+    await page.click("#problems button");
+    assert.ok(await page.evaluate(() => document.activeElement.closest("#text") !== null), "the message leads to its line");
+    await page.waitForSelector("#text .cm-lintRange-error");
+    await edit(page, "10 kg\"", "12 m\"");
+    await answered(page);
+    assert.equal(await page.locator("#problems li").count(), 0);
+    await page.waitForFunction(() => location.hash.includes("beam.length"));
+  },
+  async "two couplings are compared"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4&set=hub.motion.speed=10 rad/s`);
+    await answered(page);
+    await page.click("#pin");
+    await page.selectOption("#key-model\\.coupling", "exact");
+    await page.waitForSelector("#notes .pinned");
+    await answered(page);
+    const beside = await page.textContent(".values .beside");
+    assert.ok(number(beside) < 0, `the pinned answer stands beside: ${beside}`);
+    await page.click("#pin");
+    assert.equal(await page.locator("#notes .pinned").count(), 0);
+  },
+  async "a click on the Campbell diagram moves the speed"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4&do=campbell`);
+    await answered(page);
+    const over = page.locator(".campbell .u-over");
+    const { x, y, width, height } = await over.boundingBox();
+    const before = await page.inputValue("#rotation");
+    await page.mouse.click(x + 0.8 * width, y + 0.5 * height);
+    await page.waitForFunction((before) => document.querySelector("#rotation").value !== before, before);
+    await answered(page);
+    assert.match(await page.textContent("#curves h2"), /Modes at .* rad\/s/);
+    await page.waitForFunction(() => location.hash.includes("speed="));
+  },
+  async "it plays, stops and steps"(page) {
+    await page.goto(`${lab}#case=space_joints`);
+    await answered(page);
+    const time = () => page.$eval("#scrubber", (scrubber) => Number(scrubber.value));
+    await page.locator("h1").click();
+    await page.keyboard.press("Home");
+    await page.keyboard.press("Space");
+    if ((await page.getAttribute("#play", "aria-label")) === "Pause") await page.keyboard.press("Space");
+    await page.keyboard.press("Home");
+    assert.equal(await time(), 0);
+    await page.keyboard.press("ArrowRight");
+    assert.ok((await time()) > 0);
+    await page.keyboard.press("Space");
+    const before = await time();
+    await page.waitForTimeout(600);
+    assert.notEqual(await time(), before);
+    const saved = page.waitForEvent("download");
+    await page.click("#save summary");
+    await page.click("[data-save=picture]");
+    assert.match((await saved).suggestedFilename(), /\.png$/);
+  },
+  async "on a phone"(page) {
+    await page.setViewportSize({ width: 390, height: 844 });
+    await page.goto(`${lab}#case=falling_pendulum`);
+    await answered(page);
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390, "nothing is wider than the screen");
+    const slider = page.locator('input[type=range][aria-label="beam.length"]');
+    await slider.scrollIntoViewIfNeeded();
+    const [stage, at] = [await page.locator("#stage").boundingBox(), await slider.boundingBox()];
+    assert.ok(stage.y > -1 && stage.y + stage.height <= at.y + 1 && at.y < 844, "picture and slider are seen together");
+  },
+  async "on paper"(page) {
+    await page.goto(`${lab}#case=roll_up`);
+    await answered(page);
+    await page.emulateMedia({ media: "print" });
+    for (const id of ["#tools", "#stop", "footer"]) assert.ok(await page.locator(id).isHidden(), `${id} is not printed`);
+    for (const id of ["#text", "#title"]) assert.ok(await page.locator(id).isVisible(), `${id} is printed`);
+    const bytes = await page.pdf();
+    assert.ok(bytes.length > 20_000, "there is a picture in the print");
+  },
+  async "back leads to the case before"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    await page.click("#open-gallery");
+    await page.fill("#gallery [type=search]", "heavy top");
+    await page.locator("#gallery .card:visible").first().click();
+    await page.waitForFunction(() => /top/i.test(document.querySelector("#title").textContent));
+    await answered(page);
+    await page.goBack();
+    await page.waitForFunction(() => /spin-up/.test(document.querySelector("#title").textContent));
+    await answered(page);
+  },
+  async "a reload keeps the case"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4&set=hub.motion.speed=6 rad/s`);
+    await answered(page);
+    await slide(page, "section.modulus", 0.6);
+    await answered(page);
+    await page.waitForFunction(() => location.hash.includes("section.modulus"));
+    const before = await page.inputValue("#key-section\\.modulus");
+    await page.reload();
+    await answered(page);
+    assert.equal(await page.inputValue("#key-section\\.modulus"), before);
+    assert.equal(await page.inputValue("#key-hub\\.motion\\.speed"), "6 rad/s");
+    await page.click("#copy summary");
+    await page.click("[data-copy=command]");
+    await page.waitForSelector("#said.on");
+    const command = await page.evaluate(() => navigator.clipboard.readText());
+    assert.match(command, /^flexion run verification\/p1_spin_up_4 --set /);
+  },
+  async "in somebody's page"(page) {
+    await page.goto(`${lab}?embed#case=falling_pendulum&v=0.0.1`);
+    await answered(page);
+    assert.ok(await page.locator("#case").isHidden());
+    assert.match(await page.textContent("#notes"), /made with Flexion 0\.0\.1/);
+  },
+  async "a long run waits for a click, and is stopped"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4&set=run.duration=4000 s&set=output.step=1 ms`);
+    await page.waitForSelector("#compute:not([hidden])");
+    assert.match(await page.textContent("#state"), /takes some \d+ s or more/);
+    assert.ok(await page.evaluate(() => document.querySelector("#result").classList.contains("stale")), "nothing is shown before");
+    await page.click("#compute");
+    await page.waitForSelector("#progress:not([hidden])");
+    await page.click("#stop");
+    await page.waitForSelector("#compute:not([hidden])");
+    assert.match(await page.textContent("#state"), /Stopped/);
+    await page.fill("#key-run\\.duration", "20 s");
+    await page.fill("#key-output\\.step", "20 ms");
+    await page.keyboard.press("Enter");
+    await answered(page);
+  },
+  async "from a folder, without a server"(page) {
+    await page.goto(`file://${resolve(folder, "lab.html")}#case=p1_spin_up_4`);
+    await answered(page);
+    assert.ok(Math.abs(number((await values(page, "tip.deflection"))[0]) + 0.4003) < 1e-3);
+  },
+  async "a long link"(page) {
+    const source = (lines) => `title = "long"\n${"# a comment that takes room, number ".repeat(1)}${lines}\n[beam]\nlength = "1 m"\n[section]\nkind = "uniform"\nmodulus = "70 GPa"\ndensity = 2700\narea = "1 cm^2"\nsecond-moment = "1e-10 m^4"\n[hub]\nmotion = { kind = "spin-up", speed = "2 rad/s", time = "1 s" }\n[run]\nduration = "1 s"\n`;
+    let [seed, noise] = [1, ""];
+    while (noise.length < 60_000) noise += (seed = (seed * 16807) % 2147483647).toString(36);
+    await page.goto(`${lab}#c=${deflateRawSync(source(noise)).toString("base64url")}`);
+    await answered(page);
+    assert.equal(await page.textContent("#title"), "long");
+    await page.goto("about:blank");
+    await page.goto(`${lab}#c=${deflateRawSync(source(noise.repeat(2).split("").reverse().join("x"))).toString("base64url")}`);
+    await page.waitForFunction(() => /characters; 65536 is the most/.test(document.querySelector("#problems").textContent));
+  },
+};
+
+let passed = 0;
+for (const [name, journey] of Object.entries(journeys)) {
+  if (only && !name.includes(only)) continue;
+  const start = performance.now();
+  const one = await opened(browser, { permissions: ["clipboard-read", "clipboard-write"] });
+  try {
+    await journey(one.page, one);
+    assert.deepEqual(one.spoken, [], "the console is silent");
+    const outside = one.requested.filter((url) => !url.startsWith(address) || !/\/(index\.html|engine\.wasm|pictures\/[\w.-]+\.svg)?(\?|#|$)/.test(url));
+    assert.deepEqual(outside.filter((url) => url !== "about:blank" && !/^file:.*\/lab\.html/.test(url)), [], "only the page, the engine and pictures are requested");
+    passed += 1;
+    console.log(`${name}: ok (${((performance.now() - start) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    console.log(`${name}: FAILED\n${error.stack}\nconsole: ${one.spoken.join("\n")}`);
+    process.exitCode = 1;
+  }
+  if (pictures) await one.page.screenshot({ path: join(pictures, `${name.replace(/\W+/g, "-")}.png`) });
+  await one.close();
+}
+await browser.close();
+close();
+console.log(`${passed} passed`);
