@@ -119,5 +119,6 @@ fn a_rod_that_chatters_comes_to_rest_by_nonsmooth_steps() {
     let fastest = state.v.iter().skip(2).step_by(ELEMENT_VELOCITIES).fold(0.0_f64, |x, v| x.max(v.abs()));
     assert!(fastest < 1e-3, "{fastest}");
     assert!((force / (MASS * GRAVITY) - 1.0).abs() < 0.05, "{force}");
-    assert!(seen.deepest > -1e-9, "{:e}", seen.deepest);
+    // Between the ends of steps the error of the method.
+    assert!(seen.deepest > -1e-4 * HEIGHT, "{:e}", seen.deepest);
 }
