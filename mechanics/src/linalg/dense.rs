@@ -101,7 +101,7 @@ impl<T: Scalar> Dense<T> {
             // A NaN pivot is refused too.
             if !(best > NOTHING) {
                 let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
-                return Err(Singular { index: k, pivot: best / largest });
+                return Err(Singular { index: k, pivot: best / largest.max(NOTHING) });
             }
             self.pivots[k] = p;
             if p != k {

@@ -14,100 +14,17 @@
 use super::breaks::next_break;
 use super::contacts::Contacts;
 use super::segment::Segment;
-use super::{Ending, Event, EventKind, Leg, Observer, Plan, Run, RunError};
-use crate::contact::Neglected;
+use super::{Ending, Leg, Observer, Plan, Run, RunError};
 use crate::integrator::{Integration, Integrator, NonsmoothAlpha, StepError};
-use crate::system::{Set, State, System};
+use crate::system::{State, System};
 
 /// Spectral radius of the nonsmooth method at infinite frequency.
 const SPECTRAL_RADIUS: f64 = 0.8;
-/// Steps without a change of any contact behind which the first burst of a run ends.
-const FIRST: u32 = 20;
 /// Longest step over the longest that the method of the run would take, and the first one over that.
 const PART: f64 = 0.25;
 const FIRST_PART: f64 = 0.125;
-/// Steps behind which the step is doubled, until it is the longest: what a burst begins with is the fastest of it.
-const DOUBLED: u32 = 100;
 /// Halvings of a step that does not converge.
 const HALVINGS: u32 = 12;
-
-/// What bursts of a run have in common.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Bursts {
-    /// Steps without a change behind which the next one ends.
-    hold: u32,
-    /// Steps without a change so far; `None` outside of bursts.
-    pub(super) quiet: Option<u32>,
-    neglected: Neglected,
-    /// Steps since the step was changed, its size, and the longest \[s\].
-    count: u32,
-    step: f64,
-    longest: f64,
-    /// Whether the run ended in one.
-    pub(super) open: bool,
-}
-
-impl Default for Bursts {
-    fn default() -> Bursts {
-        Bursts {
-            hold: FIRST,
-            quiet: None,
-            neglected: Neglected::default(),
-            count: 0,
-            step: 0.0,
-            longest: 0.0,
-            open: false,
-        }
-    }
-}
-
-impl Bursts {
-    /// Counts a step of a burst; whether it is over.
-    pub(super) fn count(&mut self, system: &dyn System, h: f64, event: Option<&Event>) -> bool {
-        let Some(quiet) = &mut self.quiet else { return false };
-        *quiet = if event.is_some() { 0 } else { *quiet + 1 };
-        if let Some(Event { kind: EventKind::Impact { impulses, rates, .. }, .. }) = event {
-            for (i, set) in system.rows().iter().enumerate() {
-                let Set::Unilateral { restitution } = *set else { continue };
-                if impulses[i] > 0.0 {
-                    let speed = (-rates[i]).max(0.0);
-                    // 1/W of P = (1 + e) v/W.
-                    let energy = 0.5 * restitution * restitution * speed * impulses[i] / (1.0 + restitution);
-                    self.neglected.add(Neglected { count: 1, time: h, gap: speed * h, energy });
-                }
-            }
-        }
-        *quiet >= self.hold
-    }
-
-    /// The step that is due next, if it is another than before.
-    pub(super) fn longer(&mut self) -> Option<f64> {
-        self.quiet?;
-        self.count += 1;
-        if self.count < DOUBLED || self.step >= self.longest {
-            return None;
-        }
-        (self.count, self.step) = (0, (2.0 * self.step).min(self.longest));
-        Some(self.step)
-    }
-
-    /// What later steps depend on, as numbers.
-    pub(super) fn memory(&self) -> [f64; 5] {
-        let Neglected { count, time, gap, energy } = self.neglected;
-        [f64::from(self.hold), count as f64, time, gap, energy]
-    }
-
-    /// From the [memory](Bursts::memory) of a run.
-    pub(super) fn recall([hold, count, time, gap, energy]: [f64; 5]) -> Bursts {
-        let neglected = Neglected { count: count as u64, time, gap, energy };
-        Bursts { hold: hold as u32, neglected, ..Bursts::default() }
-    }
-
-    /// What its steps neglect.
-    pub(super) fn neglected(&self) -> Neglected {
-        self.neglected
-    }
-}
 
 impl Run {
     /// Follows contacts that chatter from `state` until they have come to rest, or to the end of the run. `mean` is the time between their events.

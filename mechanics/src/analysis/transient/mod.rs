@@ -32,7 +32,7 @@ use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, RowWeights, Side, State, System};
 use adaptive::adapt;
 use breaks::{is_fixed, jump_at, next_break, stop};
-use burst::Bursts;
+use chatter::Bursts;
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
 use segment::Segment;
 
@@ -123,8 +123,8 @@ struct Run {
 enum Leg {
     /// The run is.
     Ended(Ending),
-    /// Contacts chatter, with this mean time between events \[s\].
-    Chatters(f64),
+    /// Contacts chatter.
+    Chatters,
     /// The contacts of a burst have come to rest.
     Settled,
 }
@@ -219,14 +219,13 @@ impl Run {
         observer: &mut dyn Observer,
     ) -> Result<Ending, RunError> {
         loop {
-            match self.leg(system, integrator, state, plan, observer)? {
-                Leg::Ended(ending) => return Ok(ending),
-                Leg::Chatters(mean) => {
-                    if let Some(ending) = self.burst(system, integrator, state, (plan, mean), observer)? {
-                        return Ok(ending);
-                    }
-                }
-                Leg::Settled => {}
+            if let Some(mean) = self.bursts.due.take()
+                && let Some(ending) = self.burst(system, integrator, state, (plan, mean), observer)?
+            {
+                return Ok(ending);
+            }
+            if let Leg::Ended(ending) = self.leg(system, integrator, state, plan, observer)? {
+                return Ok(ending);
             }
         }
     }
@@ -336,21 +335,21 @@ impl Run {
                     self.divide(system, integrator, state.t, plan);
                 }
             }
-            if observer.step(state).is_break() && state.t < plan.end {
-                return Ok(Leg::Ended(Ending::Stopped));
-            }
-            let contacts = self.contacts.as_mut().filter(|contacts| !contacts.resolved);
             let left = plan.end - state.t;
-            if let Some(contacts) = contacts {
+            if let Some(contacts) = self.contacts.as_mut().filter(|contacts| !contacts.resolved) {
                 let touched = contacts.touched.take();
                 if let Some(mean) = contacts.touches.count(state.t, touched, left)
                     && contacts.touches.fast >= GRINDING
                 {
                     observer.grinds(state.t, mean);
                 }
-                if let Some(mean) = contacts.chatter.count(state.t, contact, left) {
-                    return Ok(Leg::Chatters(mean));
-                }
+                self.bursts.due = contacts.chatter.count(state.t, contact, left);
+            }
+            if observer.step(state).is_break() && state.t < plan.end {
+                return Ok(Leg::Ended(Ending::Stopped));
+            }
+            if self.bursts.due.is_some() && state.t < plan.end {
+                return Ok(Leg::Chatters);
             }
             if rests && state.t < plan.end {
                 return Ok(Leg::Settled);

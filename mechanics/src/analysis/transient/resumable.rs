@@ -1,7 +1,7 @@
 //! Checkpoints of a run, and whether a run goes on from one.
 
 use super::breaks::{is_fixed, jump_at, next_break};
-use super::burst::Bursts;
+use super::chatter::Bursts;
 use super::contacts::Contacts;
 use super::segment::Segment;
 use super::{
