@@ -1,4 +1,5 @@
 // What is computed when: the newest case at once, its errors when it rests, nothing long before a click.
+import type { Stored } from "./data";
 import { nice } from "./text";
 import { Lane, load, Stopped, type Kind, type Reply, type Request } from "./engine";
 
@@ -25,6 +26,8 @@ interface Told {
   answered(kind: Kind, reply: Reply, modes?: Reply): void;
   said(words: string, share?: number, act?: "compute" | "stop"): void;
   failed(words: string): void;
+  /** Rows of a run that is not done, which ends at a time; without rows another run begins. */
+  grown(rows?: Record<string, Stored>, end?: number): void;
 }
 
 /** What a case may take before a click: two seconds of counted work [s], and memory [bytes]. */
@@ -169,7 +172,7 @@ export class Computer {
       if (!this.fine(first)) return;
       modes = await this.ask({ ...this.request({ ...asked, kind: "modes" }), count: 6 });
     } else {
-      first = await this.ask({ ...this.request(asked), ...(kind === "run" && { errors: false }) });
+      first = await this.ask({ ...this.request(asked), ...(kind === "run" && { errors: false, rows: true }) });
       if (!this.fine(first)) return;
     }
     this.told.answered(kind, first, modes);
@@ -211,20 +214,16 @@ export class Computer {
   }
 
   private ask(request: Request): Promise<Reply> {
-    let last = 0;
-    return this.runner.ask(request, this.lifted ? Infinity : PATIENCE, (text) => {
-      const now = performance.now();
-      if (now - last < 50) return;
-      last = now;
-      this.progress(text);
-    });
+    this.told.grown();
+    return this.runner.ask(request, this.lifted ? Infinity : PATIENCE, (text) => this.progress(text, request.errors === true));
   }
 
-  private progress(text: string) {
+  private progress(text: string, errors: boolean) {
     try {
-      const { phase, time, end } = JSON.parse(text);
+      const { time, end, rows } = JSON.parse(text);
+      if (rows) this.told.grown(rows, end);
       const share = typeof time === "number" && end > 0 ? time / end : undefined;
-      const words = phase === "errors" ? "estimating the error …" : "computing …";
+      const words = errors ? "estimating the error …" : "computing …";
       this.told.said(words, share, "stop");
     } catch {
       // A notice that cannot be read says nothing.

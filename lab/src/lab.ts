@@ -11,6 +11,7 @@ import { Editor } from "./editor";
 import { bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
 import { Form, quantity, written } from "./form";
 import * as gallery from "./gallery";
+import { Growing } from "./growing";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import { Room } from "./room";
 import * as save from "./save";
@@ -54,7 +55,8 @@ let version = "";
 /** The diagram whose modes are looked at. */
 let diagram: Reply | undefined;
 
-const computer = new Computer({ checked, answered, said, failed });
+const growing = new Growing(element("growing"));
+const computer = new Computer({ checked, answered, said, failed, grown: (rows, end) => (rows ? growing.add(rows, end ?? 0) : growing.clear()) });
 const editor = new Editor(element("text"), (text) => {
   state.text = text;
   diagram = undefined;
@@ -179,6 +181,7 @@ function answered(kind: Kind, reply: Reply, modes?: Reply) {
       answer.showCampbell(reply, modes, quantity(state.speed ?? "0")?.number ?? 0, remark);
     } else answer.show(kind, reply, pin, remark);
     shown = { kind, reply };
+    growing.clear();
     if (pin) void compare(pin);
     element("result").classList.remove("stale");
     element("result").removeAttribute("aria-busy");
