@@ -47,10 +47,13 @@ function bare(value: string): string {
   return /[A-Za-z]/.test(inner) && !/^\s*([+-]?(inf|nan)|true|false|[\d.eE+-]+)\s*$/.test(inner) ? inner : value;
 }
 
+const pause = (milliseconds: number) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
 export class Computer {
   /** Whether a click has lifted the limits. */
   lifted = false;
-  readonly ready: Promise<Reply>;
+  /** The version of the engine, when it has been started. */
+  readonly ready: Promise<string>;
   private readonly module = load();
   /** One worker for questions about the case, another for its answers. */
   private readonly quick = new Lane(this.module);
@@ -64,10 +67,15 @@ export class Computer {
     this.ready = this.begin();
   }
 
-  private async begin(): Promise<Reply> {
-    const [version, keys] = [await this.quick.ask({ do: "version" }, PATIENCE), await this.quick.ask({ do: "keys" }, PATIENCE)];
-    this.perSecond = version["work-per-second"] ?? PER_SECOND;
-    return { ...keys, ...version };
+  private async begin(): Promise<string> {
+    const { version, "work-per-second": perSecond } = await this.quick.ask({ do: "version" }, PATIENCE);
+    this.perSecond = perSecond ?? PER_SECOND;
+    return version ?? "";
+  }
+
+  /** What a case may say: schema and kinds. */
+  keys(): Promise<Reply> {
+    return this.quick.ask({ do: "keys" }, PATIENCE);
   }
 
   /** The newest that is wanted; what is older is given up. */
@@ -81,6 +89,11 @@ export class Computer {
     this.wanted = { ...asked, set: asked.set && [...kept, ...asked.set] };
     if (this.runner.busy > SHORT) this.runner.stop();
     if (!this.running) void this.pump();
+  }
+
+  /** When nothing is computed any more, or after two seconds. */
+  async rests(): Promise<void> {
+    for (let tries = 0; tries < 100 && this.running; tries++) await pause(20);
   }
 
   /** Ends what is computed. */
@@ -182,7 +195,7 @@ export class Computer {
     }
     this.told.said("");
     if (kind !== "run" || this.wanted) return;
-    if (asked.sliding) await new Promise((resolve) => setTimeout(resolve, 300));
+    if (asked.sliding) await pause(300);
     if (this.wanted) return;
     this.told.said("estimating the error …", undefined, "stop");
     const whole = await this.ask({ ...this.request(asked), errors: true });

@@ -6,6 +6,10 @@ import { array, type Stored } from "./data";
 /** Columns that are drawn. */
 const MOST = 3;
 const HEIGHT = 96;
+/** Points of a curve: of more, every second is left out. */
+const POINTS = 1000;
+/** Time between two pictures [ms]. */
+const PAUSE = 150;
 /** A run that takes less is not drawn while it grows [ms]. */
 const SOON = 700;
 
@@ -13,6 +17,10 @@ export class Growing {
   private readonly data = new Map<string, number[]>();
   private plots = new Map<string, uPlot>();
   private since = 0;
+  private drawn = 0;
+  /** Rows between two that are kept, and the number of the next row. */
+  private every = 1;
+  private row = 0;
 
   constructor(private readonly into: HTMLElement) {}
 
@@ -24,16 +32,26 @@ export class Growing {
     this.into.replaceChildren();
     this.into.hidden = true;
     this.since = performance.now();
+    [this.every, this.row] = [1, 0];
   }
 
   /** Adds rows of a run that ends at a time. */
   add(rows: Record<string, Stored>, end: number) {
-    for (const name of Object.keys(rows).slice(0, MOST + 1)) {
-      const values = this.data.get(name) ?? [];
-      for (const value of array(rows, name)!) values.push(value);
-      this.data.set(name, values);
+    const names = Object.keys(rows).slice(0, MOST + 1);
+    const columns = names.map((name) => array(rows, name)!);
+    for (let i = 0; i < columns[0].length; i++, this.row++) {
+      if (this.row % this.every !== 0) continue;
+      names.forEach((name, k) => {
+        if (!this.data.has(name)) this.data.set(name, []);
+        this.data.get(name)!.push(columns[k][i]);
+      });
+      if (this.data.get(names[0])!.length < POINTS) continue;
+      this.every *= 2;
+      for (const [name, values] of this.data) this.data.set(name, values.filter((_, k) => k % 2 === 0));
     }
-    if (performance.now() - this.since < SOON) return;
+    const now = performance.now();
+    if (now - this.since < SOON || now - this.drawn < PAUSE) return;
+    this.drawn = now;
     this.into.hidden = false;
     const times = this.data.get("time") ?? [];
     for (const [name, values] of this.data) {

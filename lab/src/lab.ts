@@ -525,15 +525,19 @@ function example(path: string, { name, example }: { name: string; example: strin
 
 addEventListener("hashchange", follow);
 addEventListener("popstate", follow);
-void computer.ready.then(
-  ({ version: of, schema, choices }) => {
-    version = of ?? "";
+void computer.ready
+  .then((of) => {
+    version = of;
+    return follow();
+  })
+  // The first answer is not kept waiting for what only the editor and the form need.
+  .then(() => computer.rests())
+  .then(() => computer.keys())
+  .then(({ schema, choices }) => {
     editor.schema = schema;
-    form.kinds = new Map((choices ?? []).map(({ path, kinds }) => [path, kinds.map((kind) => example(path, kind))]));
-  },
-  (error) => failed(`The engine could not be started: ${error.message}`),
-);
-void computer.ready.then(follow, () => undefined);
+    form.offer(new Map((choices ?? []).map(({ path, kinds }) => [path, kinds.map((kind) => example(path, kind))])));
+  })
+  .catch((error) => failed(`The engine could not be started: ${error.message}`));
 if (embedded) {
   const home = element<HTMLAnchorElement>("home");
   home.textContent = "Open in the lab";
