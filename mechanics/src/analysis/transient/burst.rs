@@ -41,7 +41,10 @@ impl Run {
         (self.bursts.longest, self.bursts.step, self.bursts.count) = (step, FIRST_PART * step, 0);
         let begin = state.t;
         let before = self.imbalance(system, state);
-        let own = (self.contacts.take(), self.control.take(), self.segment.take());
+        let mut own = (self.contacts.take(), self.control.take(), self.segment.take());
+        if let Some(contacts) = &mut own.0 {
+            self.bursts.add(std::mem::take(&mut contacts.neglected));
+        }
         self.contacts = Contacts::new(system, state).and_then(Contacts::of_indicators);
         let within = Plan { step: Some(self.bursts.step), longest_step: None, contact_step: None, ..*plan };
         let result = self.nonsmooth(system, state, &within, observer, integrator, own.0);
