@@ -106,6 +106,7 @@ if (isMainThread) {
         const worker = new Worker(fileURLToPath(import.meta.url), { workerData: { module, program, work } });
         worker.on("message", (message) => {
             if (message.name) found.push(message);
+            if (process.env.SHOW && message.name) console.log(message.name, message.slow ? "slow" : message.differs.length ? "differs" : "same");
             if (message.differs?.length) console.log(`${message.name}\n  ${message.differs.join("\n  ")}`);
             next(worker);
         });

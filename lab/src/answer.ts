@@ -14,7 +14,8 @@ import { steady, text } from "./text";
 export interface Pin {
   kind: Kind;
   reply: Reply;
-  name: string;
+  /** The text of its case. */
+  text: string;
 }
 
 /** Most warnings and events that are listed. */
@@ -103,7 +104,7 @@ export class Answer {
     if (remark) add("remark", remark);
     if (reply.status === "failed") add("failed", `The run stopped early: ${reply.message ?? "no reason is given"}`);
     if (reply.status === "given-up" && reply.results) add("doubt", `This answer is not whole: ${(reply.message ?? "it was given up").replace(/\.$/, "")}.`);
-    if (pin) add("pinned", `Dashed: the pinned answer, ${pin.name}.`);
+    if (pin) add("pinned", "Dashed: the pinned answer.");
     const trust = reply.summary?.trust;
     const end = reply.summary?.end_time;
     if (trust?.estimated && trust.until !== null && trust.until !== undefined && end !== undefined && trust.until < end) {
@@ -123,12 +124,13 @@ export class Answer {
 function banded(results: Results, summary: Reply["summary"]): Results {
   const { curves } = results ?? {};
   const trust = summary?.trust;
-  if (!curves || !trust?.estimated) return results;
+  // What ended it is said beside the picture.
+  if (!curves || !trust?.estimated) return { ...results, caution: null };
   const columns = curves.columns.map((column) => ({
     ...column,
     error: column.error ?? summary?.columns?.[column.name]?.error?.discretization,
   }));
-  return { ...results, curves: { ...curves, columns, trusted: curves.trusted ?? trust.until } };
+  return { ...results, caution: null, curves: { ...curves, columns, trusted: curves.trusted ?? trust.until } };
 }
 
 /** Events as they are listed in events.csv, in columns of their own. */

@@ -62,7 +62,7 @@ export class Computer {
   }
 
   private async begin(): Promise<Reply> {
-    const [version, keys] = [await this.quick.ask({ do: "version" }), await this.quick.ask({ do: "keys" })];
+    const [version, keys] = [await this.quick.ask({ do: "version" }, PATIENCE), await this.quick.ask({ do: "keys" }, PATIENCE)];
     this.perSecond = version["work-per-second"] ?? PER_SECOND;
     return { ...keys, ...version };
   }
@@ -89,7 +89,7 @@ export class Computer {
 
   /** The text with changes. */
   async change(text: string, set: string[], files: Record<string, string>): Promise<string> {
-    const reply = await this.quick.ask({ do: "change", case: text, set, files, limits: this.limits(false) });
+    const reply = await this.quick.ask({ do: "change", case: text, set, files, limits: this.limits(false) }, PATIENCE);
     if (reply.case === undefined) throw new Error(reply.problems?.[0]?.message ?? reply.message ?? "The case cannot be changed so.");
     return reply.case;
   }
@@ -97,13 +97,15 @@ export class Computer {
   /** How a text differs from another, as changes; nothing where that cannot be said. */
   async difference(text: string, from: string, files: Record<string, string>): Promise<string[] | null | undefined> {
     if (text === from) return [];
-    const { set } = await this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits(false) });
+    const { set } = await this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits(false) }, PATIENCE);
     return set && Object.entries(set).map(([key, value]) => `${key}=${bare(value)}`);
   }
 
   /** The files that the program would write. */
-  files(asked: Asked): Promise<Reply> {
-    return this.quick.ask({ ...this.request(asked), do: "files", of: asked.kind, errors: true, limits: this.limits(true) });
+  async files(asked: Asked): Promise<Reply> {
+    const lane = new Lane(this.module);
+    const range = asked.range ?? (asked.kind === "campbell" ? await this.range(asked) : undefined);
+    return lane.ask({ ...this.request({ ...asked, range }), do: "files", of: asked.kind, errors: true, limits: this.limits(true) }).finally(() => lane.end());
   }
 
   private limits(lifted = this.lifted) {
@@ -137,14 +139,14 @@ export class Computer {
     let { text } = asked;
     const { files, set, kind } = asked;
     if (set?.length) {
-      const reply = await this.quick.ask({ do: "change", case: text, files, set, limits: this.limits(false) });
+      const reply = await this.quick.ask({ do: "change", case: text, files, set, limits: this.limits(false) }, PATIENCE);
       if (reply.case === undefined) {
         this.told.checked(reply, text, asked);
         return;
       }
       text = reply.case;
     }
-    const reply = await this.quick.ask({ do: "check", case: text, files, limits: this.limits(false) });
+    const reply = await this.quick.ask({ do: "check", case: text, files, limits: this.limits(false) }, PATIENCE);
     if (!this.told.checked(reply, text, asked)) return;
     // A newer text is read first; under a slider every answer that is short is shown.
     if (this.wanted && !asked.sliding) return;
@@ -208,19 +210,14 @@ export class Computer {
     return false;
   }
 
-  private async ask(request: Request): Promise<Reply> {
-    const limit = this.lifted ? undefined : setTimeout(() => this.runner.stop("it took too long", true), 1000 * PATIENCE);
+  private ask(request: Request): Promise<Reply> {
     let last = 0;
-    try {
-      return await this.runner.ask(request, (text) => {
-        const now = performance.now();
-        if (now - last < 50) return;
-        last = now;
-        this.progress(text);
-      });
-    } finally {
-      clearTimeout(limit);
-    }
+    return this.runner.ask(request, this.lifted ? Infinity : PATIENCE, (text) => {
+      const now = performance.now();
+      if (now - last < 50) return;
+      last = now;
+      this.progress(text);
+    });
   }
 
   private progress(text: string) {

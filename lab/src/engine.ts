@@ -133,9 +133,9 @@ export class Lane {
 
   constructor(private readonly module: Promise<WebAssembly.Module>) {}
 
-  /** Asks; `progress` is told how far it is. */
-  ask(request: Request, progress?: (text: string) => void): Promise<Reply> {
-    const next = this.turn.then(() => this.send(request, progress));
+  /** Asks; what takes longer than `patience` [s] is ended, and `progress` is told how far it is. */
+  ask(request: Request, patience = Infinity, progress?: (text: string) => void): Promise<Reply> {
+    const next = this.turn.then(() => this.send(request, patience, progress));
     this.turn = next.catch(() => undefined);
     return next;
   }
@@ -154,7 +154,14 @@ export class Lane {
     stopping(new Stopped(message, fell));
   }
 
-  private async send(request: Request, progress?: (text: string) => void): Promise<Reply> {
+  /** Ends the worker. */
+  end() {
+    this.stop();
+    this.worker?.terminate();
+    this.worker = undefined;
+  }
+
+  private async send(request: Request, patience: number, progress?: (text: string) => void): Promise<Reply> {
     const module = await this.module;
     if (!this.worker) {
       this.worker = new EngineWorker();
@@ -162,6 +169,7 @@ export class Lane {
     }
     const worker = this.worker;
     this.since = performance.now();
+    const limit = patience < Infinity ? setTimeout(() => this.stop("it took too long", true), 1000 * patience) : undefined;
     try {
       return await new Promise<Reply>((resolve, reject) => {
         this.stopping = reject;
@@ -188,6 +196,7 @@ export class Lane {
         worker.postMessage({ request: JSON.stringify({ ...request, set }) });
       });
     } finally {
+      clearTimeout(limit);
       this.stopping = undefined;
     }
   }

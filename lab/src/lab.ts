@@ -1,6 +1,8 @@
 // The lab: a case as form and text, and its answer, which follows it.
 import "./style.css";
 import "./lab.css";
+import "./answer.css";
+import "./screens.css";
 import { Answer, type Pin } from "./answer";
 import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
@@ -177,12 +179,20 @@ function answered(kind: Kind, reply: Reply, modes?: Reply) {
       answer.showCampbell(reply, modes, quantity(state.speed ?? "0")?.number ?? 0, remark);
     } else answer.show(kind, reply, pin, remark);
     shown = { kind, reply };
+    if (pin) void compare(pin);
     element("result").classList.remove("stale");
     element("result").removeAttribute("aria-busy");
     element("pin").toggleAttribute("disabled", kind !== "run" && !pin);
   } catch (error) {
     failed(`The answer cannot be drawn: ${(error as Error).message}`);
   }
+}
+
+/** Says what the pinned case has otherwise. */
+async function compare({ text }: Pin) {
+  const set = await computer.difference(text, state.text, state.files).catch(() => undefined);
+  const note = document.querySelector("#notes .pinned");
+  if (note && set?.length && set.length < 6) note.textContent = `Dashed: the pinned answer, with ${set.join(", ")}.`;
 }
 
 /** Says how far it is. */
@@ -400,7 +410,7 @@ element("open-gallery").addEventListener("click", () => {
 });
 
 element("pin").addEventListener("click", () => {
-  pin = pin ? undefined : shown && { ...shown, name: element("title").textContent ?? "" };
+  pin = pin ? undefined : shown && { ...shown, text: state.text };
   element("pin").setAttribute("aria-pressed", String(pin !== undefined));
   element("pin").textContent = pin ? "Pinned" : "Pin";
   if (pin) tell("Pinned. Change the case: both answers are drawn, the pinned one dashed.");

@@ -6,8 +6,8 @@
 //! Δt = −δ̇(t₀)/ÿ(t₀)
 //! ```
 //!
-//! where the extreme is curved. It stays among the times at which y comes as near to its extreme as twice the error e of y allows,
-//! y − y(t₀) ≤ 2e: this bounds Δt of an extreme that is flat, and where several valleys are equally deep it may be in any of them.
+//! where the extreme is curved. It stays among the times at which y comes as near to its extreme as the errors e of both values allow,
+//! y(t) − y(t₀) ≤ e(t) + e(t₀): this bounds Δt of an extreme that is flat, and where several valleys are equally deep it may be in any of them.
 //! δ is the difference from a more accurate run times a factor of safety; the largest of a few records stands for e and δ̇, since differences pass through zero.
 //!
 //! Of records with the distance h the vertex of a parabola through three is h²y‴/(6ÿ) beside the extreme. With the distance 2h it
@@ -45,14 +45,19 @@ impl Compared<'_> {
             slopes.fold(0.0_f64, |most, (k, off)| most.max(((off[1] - off[0]) / (t[k + 1] - t[k])).abs()));
         let least = y[nearest];
         let spacing = (first..last).map(|k| t[k + 1] - t[k]).fold(0.0, f64::max);
-        let near = |k: usize| y[k] - least <= 2.0 * error;
+        let narrow = vertex(&t, &y, nearest, 1);
+        // A record is up to ÿh²/8 above its vertex.
+        let above = narrow.map_or(0.0, |(_, curvature)| curvature * spacing * spacing / 8.0);
+        // The errors of both values, each the largest of a few records.
+        let around = |k: usize| (k.saturating_sub(BESIDE)..=(k + BESIDE).min(t.len() - 1)).filter_map(off);
+        let error_at = |k: usize| around(k).fold(0.0_f64, |most, off| most.max(off.abs()));
+        let near = |k: usize| y[k] - least <= error + error_at(k) + above;
         // The valley of the extreme, and the others that may be deeper.
         let left = (0..=nearest).rev().take_while(|k| near(*k)).last()?;
         let right = (nearest..t.len()).take_while(|k| near(*k)).last()?;
         let reach = (time - t[left]).max(t[right] - time) + spacing;
         let elsewhere = (0..t.len()).filter(|k| !(left..=right).contains(k) && near(*k));
-        let elsewhere = elsewhere.map(|k| (t[k] - time).abs()).fold(0.0, f64::max);
-        let narrow = vertex(&t, &y, nearest, 1);
+        let elsewhere = elsewhere.map(|k| (t[k] - time).abs() + spacing).fold(0.0, f64::max);
         let moved = narrow.map_or(f64::INFINITY, |(_, curvature)| slope / curvature).min(reach);
         let of_records = match (narrow, vertex(&t, &y, nearest, 2)) {
             (Some((narrow, _)), Some((wide, _))) => (narrow - wide).abs() + (narrow - time).abs(),
