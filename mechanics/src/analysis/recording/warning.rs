@@ -49,8 +49,8 @@ pub enum Warning {
     /// Contacts chattered, and were followed by steps of a nonsmooth method.
     #[error(
         "contacts chatter from t = {begin:.6} s on, faster than their events can be found one by one: {duration:.4} s of the run, in \
-         {bursts} burst{}, are computed by nonsmooth steps of at most {step:.2e} s, to which the times of impacts in them are known, and which damp \
-         vibrations of {lost:.2e} J",
+         {bursts} burst{}, are computed by nonsmooth steps of at most {step:.2e} s, to which the times of impacts in them are known, and whose \
+         balance of energy is off by {lost:.2e} J, counted as lost in contacts",
         if *bursts == 1 { "" } else { "s" }
     )]
     Chatter {
@@ -62,7 +62,7 @@ pub enum Warning {
         bursts: u64,
         /// Longest step \[s\].
         step: f64,
-        /// Energy of vibrations that the steps have damped \[J\].
+        /// By what the balance of energy of the steps is off \[J\].
         lost: f64,
     },
     /// Events of continuous forces follow each other fast.

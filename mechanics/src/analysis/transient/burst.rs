@@ -5,8 +5,8 @@
 //! impact is known to a step h, its place to h|ġ|, and of the rebounds within a step those that would follow are lost, ½ (eġ)²/W each. These bounds are
 //! added up as what [bounces not followed](crate::contact::Neglected) would have done.
 //!
-//! Steps begin short and are doubled, for what is fast in a burst is dissipated first, and halved where they do not converge. The energy that they lose beside what impacts take, of
-//! vibrations that they do not resolve, is found by the balance of energy and shown with the burst.
+//! Steps begin short and are doubled, for what is fast in a burst is dissipated first, and halved where they do not converge. What the balance of energy does not explain of
+//! them, of vibrations and forces of damping that they do not resolve, is counted as lost in contacts, and shown with the burst.
 //!
 //! The run comes back to its own method when no contact has opened or closed for so many steps, twice as many each time; where it cannot, for rows of
 //! closed contacts depend on each other, it goes on with nonsmooth steps.
@@ -41,13 +41,20 @@ impl Run {
         (self.bursts.longest, self.bursts.step, self.bursts.count) = (step, FIRST_PART * step, 0);
         let begin = state.t;
         let before = self.imbalance(system, state);
-        let own = (self.contacts.take(), self.control.take(), self.segment.take());
+        let mut own = (self.contacts.take(), self.control.take(), self.segment.take());
+        if let Some(contacts) = &mut own.0 {
+            self.bursts.add(std::mem::take(&mut contacts.neglected));
+        }
         self.contacts = Contacts::new(system, state).and_then(Contacts::of_indicators);
         let within = Plan { step: Some(self.bursts.step), longest_step: None, contact_step: None, ..*plan };
         let result = self.nonsmooth(system, state, &within, observer, integrator, own.0);
         (self.control, self.segment) = (own.1, own.2);
-        let lost = (before - self.imbalance(system, state)).max(0.0);
-        observer.burst(begin, state.t, step, lost);
+        // Before the burst and behind it the balance is the same.
+        let off = before - self.imbalance(system, state);
+        if let Some(balance) = &mut self.balance {
+            balance.add_impulse(0.0, off);
+        }
+        observer.burst(begin, state.t, step, off.abs());
         let (ended, contacts) = result?;
         self.contacts = contacts;
         if ended.is_some() {

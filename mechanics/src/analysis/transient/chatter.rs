@@ -143,6 +143,11 @@ impl Bursts {
         Bursts { due, hold: hold as u32, neglected, ..Bursts::default() }
     }
 
+    /// Adds what was neglected outside of bursts.
+    pub(super) fn add(&mut self, neglected: Neglected) {
+        self.neglected.add(neglected);
+    }
+
     /// What its steps neglect.
     pub(super) fn neglected(&self) -> Neglected {
         self.neglected
