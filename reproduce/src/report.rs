@@ -457,7 +457,7 @@ fn table(item: &Item, answers: &Answers<'_>, name: &str, out: &mut Html) {
     let size: String = size.into_iter().filter(|(is, _)| *is).map(|(_, word)| word).collect();
     out.raw(&format!("<div class=\"wide{size}\"><table class=sortable><thead><tr><th>Run"));
     for title in &table.titles {
-        out.raw("<th>").text(title);
+        out.raw("<th class=number>").text(title);
     }
     out.raw("</tr></thead><tbody>");
     for (run, cells) in &table.rows {
