@@ -2,7 +2,7 @@
 
 use crate::answer::Answer;
 use crate::described::{As, Described};
-use crate::need::of_paper;
+use crate::need::{Asks, Need, of_paper};
 use crate::rule::Ruled;
 use crate::term::{Answers, of_run};
 use crate::verdict::judged;
@@ -62,22 +62,28 @@ pub fn of_item<'a>(
     .collect()
 }
 
+/// What is computed, under which its values are kept.
+fn of_need(need: &Need) -> String {
+    let key = &need.run.key;
+    let run = format!("{} {}", key.case, key.set.join(" "));
+    let against = key.against.as_ref().map(|against| format!(" against {}", against.join(" ")));
+    let asks = match &key.asks {
+        Asks::Run => String::new(),
+        Asks::Modes(asks) | Asks::Energy(asks) => format!(" {asks}"),
+    };
+    format!("{}{}{asks}", run.trim_end(), against.unwrap_or_default())
+}
+
 fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
     let (needs, numbers) = of_paper(described);
     let mut out = Expected::default();
     for (need, answer) in needs.iter().zip(answers) {
         let Some(answer) = answer else { continue };
-        let run = format!("{} {}", need.run.key.case, need.run.key.set.join(" "));
-        let against = need.run.key.against.as_ref().map(|against| format!(" against {}", against.join(" ")));
-        let run = format!("{}{}", run.trim_end(), against.unwrap_or_default());
+        let run = of_need(need);
         for (quantity, value) in &answer.values {
             let Ok(value) = value else { continue };
             if !value.varies {
-                let asks = match &need.run.key.asks {
-                    crate::need::Asks::Run => String::new(),
-                    crate::need::Asks::Modes(asks) | crate::need::Asks::Energy(asks) => format!(" {asks}"),
-                };
-                let name = format!("{run}{asks} | {quantity}");
+                let name = format!("{run} | {quantity}");
                 out.values.insert(name, [value.value, value.error.unwrap_or(-1.0)]);
             }
         }
@@ -158,11 +164,39 @@ pub fn check(described: &Described, answers: &[Option<Answer>]) -> Result<Checke
             None => out.failed.push(format!("claim {name}: {verdict} is new; `--accept` takes it up")),
         }
     }
-    if answers.iter().all(Option::is_some) {
-        let values = expected.values.keys().filter(|name| !now.values.contains_key(*name));
-        let verdicts = expected.verdicts.keys().filter(|name| !now.verdicts.contains_key(*name));
-        out.failed.extend(values.map(|name| format!("{name} is gone")));
-        out.failed.extend(verdicts.map(|name| format!("claim {name} is gone")));
-    }
+    out.failed.extend(gone(described, answers, &expected, &now));
     Ok(out)
+}
+
+/// What was accepted and is not there any more, of runs that are computed and of claims whose runs are, and of what the paper no longer has.
+fn gone(
+    described: &Described,
+    answers: &[Option<Answer>],
+    expected: &Expected,
+    now: &Expected,
+) -> Vec<String> {
+    let (needs, numbers) = of_paper(described);
+    let computed: BTreeMap<String, bool> =
+        needs.iter().zip(answers).map(|(need, answer)| (of_need(need), answer.is_some())).collect();
+    let whole = |id: &str| {
+        described.items.iter().find(|(own, _)| own.as_str() == id).is_none_or(|(id, item)| {
+            of_item(id, item, &numbers, answers).values().all(|(answer, _)| answer.is_some())
+        })
+    };
+    let is_gone = |name: &&String| {
+        let run = name.rsplit_once(" | ").map_or(name.as_str(), |(run, _)| run);
+        let item = run.split_once(": ").map(|(item, _)| item);
+        let looked_for = match (computed.get(run), item) {
+            (Some(computed), _) => *computed,
+            (None, Some(item)) => whole(item),
+            (None, None) => true,
+        };
+        looked_for && !now.values.contains_key(*name)
+    };
+    let values = expected.values.keys().filter(is_gone).map(|name| format!("{name} is gone"));
+    let claim = |name: &&String| {
+        let item = name.rsplit_once('.').map_or(name.as_str(), |(item, _)| item);
+        whole(item) && !now.verdicts.contains_key(*name)
+    };
+    values.chain(expected.verdicts.keys().filter(claim).map(|name| format!("claim {name} is gone"))).collect()
 }

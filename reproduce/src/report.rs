@@ -574,18 +574,24 @@ fn command(run: &Named, place: &str) -> String {
     let sets: Vec<String> =
         run.key.set.iter().map(|set| format!(" --set '{}'", set.replace('\'', "\""))).collect();
     let file = format!("{place}/cases/{}.toml", run.key.case);
-    let (verb, asks) =
-        match (&run.modes, &run.energy) {
-            (Some(modes), _) => {
-                ("modes", format!(" --speed {} --count {}", crate::need::plain(&modes.speed), modes.count))
-            }
-            (_, Some(energy)) => return format!(
-                "flexion reproduce {place}: frequencies by the {:?} strain energy of {file} at the speed {}",
-                energy.energy,
-                crate::need::plain(&energy.speed)
-            )
-            .to_lowercase(),
-            _ => ("run", String::new()),
-        };
-    format!("flexion {verb} {file}{}{asks}", sets.concat())
+    let within = |what: String| format!("flexion reproduce {place}: {what} of {file}{}", sets.concat());
+    match (&run.modes, &run.energy) {
+        // Speeds in units of their own, and transverse frequencies, are what no command of a case asks for.
+        (Some(modes), _) if modes.transverse || modes.unit.is_some() => within(format!(
+            "{} {}frequencies at the speed {}",
+            modes.count,
+            if modes.transverse { "transverse " } else { "" },
+            crate::need::plain(&modes.speed)
+        )),
+        (Some(modes), _) => {
+            let speed = crate::need::plain(&modes.speed);
+            format!("flexion modes {file}{} --speed '{speed}' --count {}", sets.concat(), modes.count)
+        }
+        (_, Some(energy)) => {
+            let kind = format!("{:?}", energy.energy).to_lowercase();
+            let speed = crate::need::plain(&energy.speed);
+            within(format!("frequencies by the {kind} strain energy at the speed {speed}"))
+        }
+        _ => format!("flexion run {file}{}", sets.concat()),
+    }
 }

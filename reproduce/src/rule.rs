@@ -77,14 +77,20 @@ fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled
             };
             words.push(("{low}".to_owned(), plain(*low)));
             words.push(("{high}".to_owned(), plain(*high)));
-            Ok(both([less(&bound(*low), &value), less(&value, &bound(*high))]))
+            // A difference as a part of a value is never below zero.
+            let is_part = matches!(
+                of,
+                Term::Of(OfRun { compared: Some(As::RelativeDifference | As::CurveDifference), .. })
+            );
+            let least = if *low <= 0.0 && is_part { Ruled::Holds } else { at_most(&bound(*low), &value) };
+            Ok(both([least, at_most(&value, &bound(*high))]))
         }
         Rule::Agree { within, .. } => {
             let found = numbers(rule, answers)?;
             extremes(&found, words);
             let bound =
                 Number { value: *within, error: Some(0.0), unit: String::new(), part: true, varies: false };
-            Ok(both(found.iter().map(|value| less(value, &bound))))
+            Ok(both(found.iter().map(|value| at_most(value, &bound))))
         }
         Rule::Grows { .. } | Rule::Falls { .. } => {
             let found = numbers(rule, answers)?;
@@ -144,13 +150,22 @@ fn said(term: &Term, number: &Number) -> String {
 
 /// Whether a < b for all values within their errors, or for none.
 fn less(a: &Number, b: &Number) -> Ruled {
+    compared(a, b, |a, b| a < b)
+}
+
+/// Whether a ≤ b for all values within their errors, or for none.
+fn at_most(a: &Number, b: &Number) -> Ruled {
+    compared(a, b, |a, b| a <= b)
+}
+
+fn compared(a: &Number, b: &Number, in_order: impl Fn(f64, f64) -> bool) -> Ruled {
     let (Some(e), Some(f)) = (a.error, b.error) else {
         let which = if a.error.is_none() { a } else { b };
         return Ruled::Undecided(format!("the error of {} is not known", shown(which)));
     };
-    if a.value + e < b.value - f {
+    if in_order(a.value + e, b.value - f) {
         Ruled::Holds
-    } else if a.value - e >= b.value + f {
+    } else if !in_order(a.value - e, b.value + f) {
         Ruled::Fails
     } else {
         Ruled::Undecided(format!("{} and {} cannot be told apart", shown(a), shown(b)))
@@ -168,4 +183,46 @@ fn both(each: impl IntoIterator<Item = Ruled>) -> Ruled {
         };
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::answer::Answer;
+
+    fn is_within(value: f64, error: f64, low: f64, high: f64) -> Ruled {
+        let number =
+            |value| Number { value, error: Some(error), unit: String::new(), part: false, varies: false };
+        let bound = |value| Number { error: Some(0.0), ..number(value) };
+        both([at_most(&bound(low), &number(value)), at_most(&number(value), &bound(high))])
+    }
+
+    #[test]
+    fn bounds_belong_to_what_is_between_them() {
+        assert_eq!(is_within(152.0, 0.0, 152.0, 152.0), Ruled::Holds);
+        assert_eq!(is_within(152.0, 0.0, 152.0, 153.0), Ruled::Holds);
+        assert_eq!(is_within(153.5, 0.1, 152.0, 153.0), Ruled::Fails);
+        assert!(matches!(is_within(153.0, 0.1, 152.0, 153.0), Ruled::Undecided(_)));
+    }
+
+    #[test]
+    fn a_part_of_a_value_is_not_below_zero() {
+        let valued =
+            |value| crate::answer::Valued { value, error: Some(3e-4), unit: "m".to_owned(), varies: false };
+        let of = |value: f64| {
+            let mut answer = Answer::default();
+            answer.values.insert("x".to_owned(), Ok(valued(value)));
+            answer
+        };
+        let (one, other) = (of(1.0), of(1.0001));
+        let answers: Answers<'_> =
+            [("one".to_owned(), (Some(&one), None)), ("other".to_owned(), (Some(&other), None))]
+                .into_iter()
+                .collect();
+        let rule: Rule = toml::from_str(
+            "kind = 'within'\nof = { run = 'one', quantity = 'x', to = 'other', as = 'relative-difference' }\nlow = 0\nhigh = 0.01",
+        )
+        .unwrap();
+        assert_eq!(ruled(&rule, &answers).0, Ruled::Holds);
+    }
 }

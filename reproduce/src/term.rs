@@ -70,6 +70,13 @@ pub fn of_run(of: &OfRun, answers: &Answers<'_>) -> Result<Number, Missing> {
     if *compared == As::CurveDifference {
         let (column, within) = window(quantity);
         let curve = |run: &String| answer(answers, run)?.curve(column).map_err(because(run));
+        for run in [run, to] {
+            if within.1.is_infinite() && !answer(answers, run)?.finished() {
+                return Err(Missing::Because(format!(
+                    "{run} ended early, and the claim does not say until when runs are compared"
+                )));
+            }
+        }
         let (value, error) = apart(curve(run)?, curve(to)?, within).map_err(Missing::Because)?;
         return Ok(Number { value, error, unit: String::new(), part: true, varies: false });
     }
@@ -106,9 +113,10 @@ pub fn window(text: &str) -> (&str, (f64, f64)) {
 /// max |a − b| / max |b| over the common times, and its error by those of both.
 fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f64>), String> {
     let last = |curve: &Curve| curve.t.last().copied().unwrap_or(0.0);
-    let (end, needed) = (last(a).min(last(b)), last(a).max(last(b)).min(to));
+    let end = last(a).min(last(b));
+    let needed = if to.is_finite() { to } else { last(a).max(last(b)) };
     if end < needed * (1.0 - 1e-9) {
-        return Err(format!("one of the two runs ends at t = {end} s"));
+        return Err(format!("a run ends at t = {end} s, before {needed} s"));
     }
     let (mut largest, mut size, mut off) = (0.0_f64, 0.0_f64, 0.0_f64);
     let mut j = 0;

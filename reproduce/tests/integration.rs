@@ -303,6 +303,35 @@ fn a_check_finds_changed_values_and_grown_errors() {
     assert_eq!(check(&paper, &answers).unwrap().failed, ["claim F1.9 is gone"]);
     paper.expected = Some(accepted.replace("\"holds\"", "\"fails\""));
     assert_eq!(check(&paper, &answers).unwrap().failed.len(), 1);
+    // A value that a run has no more is missed though another run was left out, and so are runs and items that the paper has no more.
+    let (mut some, less) = (answers.clone(), accepted.replace("deflection.min", "deflection.max"));
+    assert!(some.len() > 1);
+    some[1] = None;
+    paper.expected = Some(accepted.clone());
+    assert_eq!(check(&paper, &some).unwrap().failed, [""; 0]);
+    paper.expected = Some(less);
+    let found = check(&paper, &some).unwrap().failed;
+    assert!(found.iter().any(|said| said.ends_with("deflection.max is gone")), "{found:?}");
+    let other =
+        accepted.replace("[values]", "\"F9.1\" = \"holds\"\n\n[values]\n\"nothing | run.end\" = [1.0, 0.0]");
+    paper.expected = Some(other);
+    let found = check(&paper, &some).unwrap().failed;
+    assert_eq!(found, ["nothing | run.end is gone", "claim F9.1 is gone"]);
+}
+
+/// Runs that ended early are compared until a time that is said, and no run that ends before it agrees with any.
+#[test]
+fn runs_that_ended_early_do_not_agree_unsaid() {
+    let folder = tempfile::tempdir().unwrap();
+    let agree = |quantity: &str| {
+        format!(
+            "[[claim]]\ntext = 'T'\nrule = {{ kind = 'agree', runs = ['breaks', 'breaks'], quantity = '{quantity}', within = 0.01, curves = true }}\n"
+        )
+    };
+    let claims: String =
+        ["tip.deflection", "tip.deflection@0..0.5", "tip.deflection@0..19"].map(agree).concat();
+    let found = verdicts(&paper_of(folder.path(), &format!("{RUNS}{claims}")), "F1");
+    assert_eq!(found, ["undecided", "holds", "undecided"]);
 }
 
 #[test]
