@@ -68,7 +68,39 @@ fn edit(text: &str, path: &str, value: &str) -> Option<String> {
     let of = span(text, &at.place)?;
     // A table of its own heading is not one place.
     let one = !matches!(at.value, Raw::Table(_)) || text[of.clone()].starts_with('{');
-    one.then(|| format!("{}{value}{}", &text[..of.start], &text[of.end..]))
+    if one {
+        Some(format!("{}{value}{}", &text[..of.start], &text[of.end..]))
+    } else {
+        anew(text, path, &value)
+    }
+}
+
+/// A text with other lines under the heading of a table and in the place of its inner tables.
+fn anew(text: &str, path: &str, value: &str) -> Option<String> {
+    let read = toml::from_str::<toml::Table>(&format!("value = {value}")).ok()?;
+    let table = read.get("value")?.as_table()?;
+    // The kind stands first.
+    let (kind, other): (Vec<_>, Vec<_>) = table.iter().partition(|(key, _)| *key == "kind");
+    let lines = kind.into_iter().chain(other).map(|(key, value)| format!("{key} = {value}\n"));
+    let heading = format!("[{path}]");
+    let inner = format!("[{path}.");
+    let (mut out, mut within) = (String::new(), false);
+    let mut lines = Some(lines.collect::<String>());
+    for line in text.split_inclusive('\n') {
+        let bare = line.trim_start();
+        if bare.starts_with(&heading) {
+            out.push_str(line);
+            out.push_str(&lines.take()?);
+            within = true;
+        } else if bare.starts_with('[') && !bare.starts_with(&inner) && within {
+            out.push('\n');
+            within = false;
+        }
+        if !within {
+            out.push_str(line);
+        }
+    }
+    lines.is_none().then_some(out)
 }
 
 /// A text with a line added to a table.
@@ -123,8 +155,10 @@ mod tests {
             .edited(&pairs(&[("section.modulus", "30 GPa"), ("output.energy-balance", "false")]))
             .unwrap();
         assert_eq!(edited.lines().count(), CASE.lines().count() + 1, "{edited}");
-        // A table of another kind has no one place.
+        // A table of another kind has other lines under its heading.
         let edited = case.edited(&pairs(&[("basis", "{kind='modes', axial=4, transverse=5}")])).unwrap();
+        assert!(edited.contains("[basis]\nkind = \"modes\"\naxial = 4\ntransverse = 5\n\n["), "{edited}");
+        assert!(edited.contains("\"70 GPa\"") && !edited.contains("elements"), "{edited}");
         assert!(
             reading(&edited)
                 .means(&case.with(&["basis={kind='modes', axial=4, transverse=5}".to_owned()]).unwrap())

@@ -9,6 +9,7 @@ mod case_files;
 mod contact;
 mod contact_in_space;
 mod convergence;
+mod crowds;
 mod damped_modes;
 mod deck_formats;
 mod deck_frequencies;

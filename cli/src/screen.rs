@@ -63,14 +63,16 @@ pub fn row(name: &str, text: String) -> Vec<String> {
 
 /// A table of text with aligned columns, indented by two spaces.
 pub fn table(rows: &[Vec<String>]) -> String {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |column: usize| {
         rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count()).max().unwrap_or(0)
     };
+    let widths: Vec<usize> = (0..columns).map(width).collect();
     let mut out = String::new();
     for row in rows {
         let mut line = String::new();
         for (column, cell) in row.iter().enumerate() {
-            let fill = width(column).saturating_sub(cell.chars().count());
+            let fill = widths[column].saturating_sub(cell.chars().count());
             line.push_str("  ");
             line.push_str(cell);
             line.extend(std::iter::repeat_n(' ', fill));

@@ -2,7 +2,7 @@
 //
 //     node build/pages.mjs [ENGINE.wasm]
 import { execFileSync } from "node:child_process";
-import { copyFileSync, existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 
@@ -10,6 +10,24 @@ const lab = join(import.meta.dirname, "..");
 const run = (...words) => execFileSync("npx", words, { cwd: lab, stdio: ["ignore", "ignore", "inherit"] });
 const file = (name) => join(lab, "dist", name);
 const kilobytes = (bytes) => `${(bytes.length / 1000).toFixed(0)} kB`;
+
+/** A module without its custom sections, which hold names. */
+function stripped(module) {
+  const kept = [module.subarray(0, 8)];
+  for (let at = 8; at < module.length; ) {
+    const start = at;
+    const id = module[at++];
+    let [size, shift] = [0, 0];
+    for (let more = true; more; shift += 7) {
+      const byte = module[at++];
+      size += (byte & 127) * 2 ** shift;
+      more = byte > 127;
+    }
+    at += size;
+    if (id !== 0) kept.push(module.subarray(start, at));
+  }
+  return Buffer.concat(kept);
+}
 
 execFileSync("node", [join(lab, "build/gather.mjs")], { stdio: "inherit" });
 run("tsc");
@@ -23,8 +41,9 @@ console.log(`view.html ${kilobytes(gzipSync(readFileSync(file("view.html"))))}, 
 
 const engine = process.argv[2] ?? join(lab, "../target/wasm32-unknown-unknown/wasm/flexion_lab.wasm");
 if (existsSync(engine)) {
-  const packed = gzipSync(readFileSync(engine), { level: 9 });
-  copyFileSync(engine, file("engine.wasm"));
+  const module = stripped(readFileSync(engine));
+  const packed = gzipSync(module, { level: 9 });
+  writeFileSync(file("engine.wasm"), module);
   const within = page.replace(">the engine<", () => `>${packed.toString("base64")}<`).replace(">{}<", () => `>${large.replaceAll("<", "\\u003c")}<`);
   writeFileSync(file("lab.html"), within);
   console.log(`engine.wasm ${kilobytes(packed)} compressed, lab.html ${kilobytes(readFileSync(file("lab.html")))} with it within`);

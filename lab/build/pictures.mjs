@@ -3,7 +3,7 @@
 //     node build/pictures.mjs ENGINE.wasm FOLDER
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
-import { engine } from "./engine.mjs";
+import { numbers as decoded, open } from "../engine/engine.mjs";
 
 const [WIDTH, HEIGHT, CURVE] = [240, 150, 44];
 /** Work after which a run is drawn as far as it came. */
@@ -14,12 +14,7 @@ const STYLE =
   ".s{fill:none;stroke:#5b626d;stroke-width:1.2}text{font:9px system-ui,sans-serif;fill:#5b626d}" +
   "@media(prefers-color-scheme:dark){.b,.c{stroke:#7db2ea}.k1{stroke:#e39a51}.k2{stroke:#7cc487}.p{stroke:#e39a51}.o{stroke:#e27d73}.a{stroke:#363c45}.s{stroke:#9aa3af}text{fill:#9aa3af}}</style>";
 
-function numbers(encoded) {
-  const [kind, text] = encoded.split(":");
-  const bytes = Buffer.from(text, "base64");
-  const buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
-  return kind === "f4" ? new Float32Array(buffer) : new Float64Array(buffer);
-}
+const numbers = (values) => decoded({ values });
 
 /** A vector turned by a quaternion (w, x, y, z). */
 function turned([w, x, y, z], [a, b, c]) {
@@ -126,7 +121,7 @@ const [file, folder] = process.argv.slice(2);
 const root = join(import.meta.dirname, "../..");
 const { cases, items } = JSON.parse(readFileSync(join(root, "lab/made/gallery.json"), "utf8"));
 const large = JSON.parse(readFileSync(join(root, "lab/made/files.json"), "utf8"));
-const ask = await engine(file);
+const { ask } = await open(file);
 mkdirSync(folder, { recursive: true });
 const without = [];
 for (const item of items) {

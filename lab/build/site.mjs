@@ -8,7 +8,7 @@ import { execFileSync } from "node:child_process";
 import { cpSync, existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { deflateRawSync } from "node:zlib";
-import { engine } from "./engine.mjs";
+import { open } from "../engine/engine.mjs";
 
 const lab = join(import.meta.dirname, "..");
 const root = join(lab, "..");
@@ -44,7 +44,7 @@ if (installed()) execFileSync("npm", ["run", "build"], { cwd: join(root, "docs/b
 const book = existsSync(made);
 if (book) {
   cpSync(made, join(site, "book"), { recursive: true });
-  const ask = await engine(file);
+  const { ask } = await open(file);
   let links = 0;
   for (const name of readdirSync(join(site, "book"), { recursive: true }).filter((name) => name.endsWith(".html"))) {
     const page = join(site, "book", name);

@@ -1,4 +1,5 @@
 // What is computed when: the newest case at once, its errors when it rests, nothing long before a click.
+import type { Stored } from "./data";
 import { nice } from "./text";
 import { Lane, load, Stopped, type Kind, type Reply, type Request } from "./engine";
 
@@ -25,6 +26,8 @@ interface Told {
   answered(kind: Kind, reply: Reply, modes?: Reply): void;
   said(words: string, share?: number, act?: "compute" | "stop"): void;
   failed(words: string): void;
+  /** Rows of a run that is not done, which ends at a time; without rows another run begins. */
+  grown(rows?: Record<string, Stored>, end?: number): void;
 }
 
 /** What a case may take before a click: two seconds of counted work [s], and memory [bytes]. */
@@ -44,10 +47,13 @@ function bare(value: string): string {
   return /[A-Za-z]/.test(inner) && !/^\s*([+-]?(inf|nan)|true|false|[\d.eE+-]+)\s*$/.test(inner) ? inner : value;
 }
 
+const pause = (milliseconds: number) => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
 export class Computer {
   /** Whether a click has lifted the limits. */
   lifted = false;
-  readonly ready: Promise<Reply>;
+  /** The version of the engine, when it has been started. */
+  readonly ready: Promise<string>;
   private readonly module = load();
   /** One worker for questions about the case, another for its answers. */
   private readonly quick = new Lane(this.module);
@@ -61,10 +67,15 @@ export class Computer {
     this.ready = this.begin();
   }
 
-  private async begin(): Promise<Reply> {
-    const [version, keys] = [await this.quick.ask({ do: "version" }, PATIENCE), await this.quick.ask({ do: "keys" }, PATIENCE)];
-    this.perSecond = version["work-per-second"] ?? PER_SECOND;
-    return { ...keys, ...version };
+  private async begin(): Promise<string> {
+    const { version, "work-per-second": perSecond } = await this.quick.ask({ do: "version" }, PATIENCE);
+    this.perSecond = perSecond ?? PER_SECOND;
+    return version ?? "";
+  }
+
+  /** What a case may say: schema and kinds. */
+  keys(): Promise<Reply> {
+    return this.quick.ask({ do: "keys" }, PATIENCE);
   }
 
   /** The newest that is wanted; what is older is given up. */
@@ -78,6 +89,11 @@ export class Computer {
     this.wanted = { ...asked, set: asked.set && [...kept, ...asked.set] };
     if (this.runner.busy > SHORT) this.runner.stop();
     if (!this.running) void this.pump();
+  }
+
+  /** When nothing is computed any more, or after two seconds. */
+  async rests(): Promise<void> {
+    for (let tries = 0; tries < 100 && this.running; tries++) await pause(20);
   }
 
   /** Ends what is computed. */
@@ -169,7 +185,7 @@ export class Computer {
       if (!this.fine(first)) return;
       modes = await this.ask({ ...this.request({ ...asked, kind: "modes" }), count: 6 });
     } else {
-      first = await this.ask({ ...this.request(asked), ...(kind === "run" && { errors: false }) });
+      first = await this.ask({ ...this.request(asked), ...(kind === "run" && { errors: false, rows: true }) });
       if (!this.fine(first)) return;
     }
     this.told.answered(kind, first, modes);
@@ -179,7 +195,7 @@ export class Computer {
     }
     this.told.said("");
     if (kind !== "run" || this.wanted) return;
-    if (asked.sliding) await new Promise((resolve) => setTimeout(resolve, 300));
+    if (asked.sliding) await pause(300);
     if (this.wanted) return;
     this.told.said("estimating the error …", undefined, "stop");
     const whole = await this.ask({ ...this.request(asked), errors: true });
@@ -211,20 +227,16 @@ export class Computer {
   }
 
   private ask(request: Request): Promise<Reply> {
-    let last = 0;
-    return this.runner.ask(request, this.lifted ? Infinity : PATIENCE, (text) => {
-      const now = performance.now();
-      if (now - last < 50) return;
-      last = now;
-      this.progress(text);
-    });
+    this.told.grown();
+    return this.runner.ask(request, this.lifted ? Infinity : PATIENCE, (text) => this.progress(text, request.errors === true));
   }
 
-  private progress(text: string) {
+  private progress(text: string, errors: boolean) {
     try {
-      const { phase, time, end } = JSON.parse(text);
+      const { time, end, rows } = JSON.parse(text);
+      if (rows) this.told.grown(rows, end);
       const share = typeof time === "number" && end > 0 ? time / end : undefined;
-      const words = phase === "errors" ? "estimating the error …" : "computing …";
+      const words = errors ? "estimating the error …" : "computing …";
       this.told.said(words, share, "stop");
     } catch {
       // A notice that cannot be read says nothing.

@@ -192,20 +192,13 @@ export class Lane {
             }
           }
         };
-        const set = request.set && Object.fromEntries(request.set.map(halves));
-        worker.postMessage({ request: JSON.stringify({ ...request, set }) });
+        worker.postMessage({ request: JSON.stringify(request) });
       });
     } finally {
       clearTimeout(limit);
       this.stopping = undefined;
     }
   }
-}
-
-/** The key and the value of a change; one without `=` is left to the engine to refuse. */
-function halves(change: string): [string, string] {
-  const at = change.indexOf("=");
-  return at < 0 ? [change, ""] : [change.slice(0, at), change.slice(at + 1)];
 }
 
 /** Bytes of text in base64. */

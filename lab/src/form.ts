@@ -36,14 +36,20 @@ export class Form {
   private shape = "";
   private everything = false;
   private entries: Entry[] = [];
-  /** Kinds of tables with the keys of an example, by their paths. */
-  kinds = new Map<string, { name: string; example: string }[]>();
+  private kinds = new Map<string, { name: string; example: string }[]>();
 
   /** `changed` is told of a value that the user chose; `sliding` says that more will follow. */
   constructor(
     private readonly into: HTMLElement,
     private readonly changed: (key: string, value: string, sliding: boolean) => void,
   ) {}
+
+  /** Kinds of tables with the keys of an example, by their paths. */
+  offer(kinds: Map<string, { name: string; example: string }[]>) {
+    this.kinds = kinds;
+    this.shape = "";
+    this.show(this.entries);
+  }
 
   show(entries: Entry[]) {
     this.entries = entries;

@@ -11,6 +11,7 @@ import { Editor } from "./editor";
 import { bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
 import { Form, quantity, written } from "./form";
 import * as gallery from "./gallery";
+import { Growing } from "./growing";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import { Room } from "./room";
 import * as save from "./save";
@@ -54,7 +55,8 @@ let version = "";
 /** The diagram whose modes are looked at. */
 let diagram: Reply | undefined;
 
-const computer = new Computer({ checked, answered, said, failed });
+const growing = new Growing(element("growing"));
+const computer = new Computer({ checked, answered, said, failed, grown: (rows, end) => (rows ? growing.add(rows, end ?? 0) : growing.clear()) });
 const editor = new Editor(element("text"), (text) => {
   state.text = text;
   diagram = undefined;
@@ -179,6 +181,7 @@ function answered(kind: Kind, reply: Reply, modes?: Reply) {
       answer.showCampbell(reply, modes, quantity(state.speed ?? "0")?.number ?? 0, remark);
     } else answer.show(kind, reply, pin, remark);
     shown = { kind, reply };
+    growing.clear();
     if (pin) void compare(pin);
     element("result").classList.remove("stale");
     element("result").removeAttribute("aria-busy");
@@ -522,15 +525,19 @@ function example(path: string, { name, example }: { name: string; example: strin
 
 addEventListener("hashchange", follow);
 addEventListener("popstate", follow);
-void computer.ready.then(
-  ({ version: of, schema, choices }) => {
-    version = of ?? "";
+void computer.ready
+  .then((of) => {
+    version = of;
+    return follow();
+  })
+  // The first answer is not kept waiting for what only the editor and the form need.
+  .then(() => computer.rests())
+  .then(() => computer.keys())
+  .then(({ schema, choices }) => {
     editor.schema = schema;
-    form.kinds = new Map((choices ?? []).map(({ path, kinds }) => [path, kinds.map((kind) => example(path, kind))]));
-  },
-  (error) => failed(`The engine could not be started: ${error.message}`),
-);
-void computer.ready.then(follow, () => undefined);
+    form.offer(new Map((choices ?? []).map(({ path, kinds }) => [path, kinds.map((kind) => example(path, kind))])));
+  })
+  .catch((error) => failed(`The engine could not be started: ${error.message}`));
 if (embedded) {
   const home = element<HTMLAnchorElement>("home");
   home.textContent = "Open in the lab";

@@ -202,6 +202,7 @@ const journeys = {
     assert.ok(await page.evaluate(() => document.querySelector("#result").classList.contains("stale")), "nothing is shown before");
     await page.click("#compute");
     await page.waitForSelector("#progress:not([hidden])");
+    await page.waitForSelector("#growing .u-over");
     await page.click("#stop");
     await page.waitForSelector("#compute:not([hidden])");
     assert.match(await page.textContent("#state"), /Stopped/);

@@ -66,6 +66,13 @@ pub enum Touching {
 pub type Point = (String, Place, Law);
 
 impl Contact {
+    /// Whether its points are those of the axis of a beam, which needs no node at them: friction on a radius asks for the rotation of a
+    /// section too.
+    pub fn is_on_axis(&self) -> bool {
+        let rolls = self.radius > 0.0 && self.law.has_friction();
+        matches!(self.on, Touching::Points { .. }) && !rolls
+    }
+
     /// Its points; that at the root of a beam is none where the root is `held`.
     pub fn points(&self, parts: &Parts, held: bool) -> Vec<Point> {
         let name = |k: usize| format!("{}.{}", self.name, k + 1);

@@ -12,6 +12,10 @@ pub(super) fn of_run(warning: &Warning, fixed: bool) -> String {
         Warning::EnergyImbalance { .. } => "; use smaller steps or a tighter tolerance",
         Warning::EnergyLost { .. } => "; use smaller steps or a tighter tolerance",
         Warning::SteppedOver { .. } => "; use smaller steps, or `radau`",
+        Warning::Grinds { .. } => {
+            "; take fewer points, a softer force, or a `constraint` with `nonsmooth-generalized-alpha`"
+        }
+        Warning::Chatter { .. } => "; `contact-step` makes them shorter",
         Warning::FewStepsAPeriod { .. } => ": use smaller steps or the adaptive method `radau`",
         _ => "",
     };

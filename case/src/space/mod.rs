@@ -235,7 +235,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     };
     let points: Option<Vec<Vec<Point>>> = contacts.iter().enumerate().map(along).collect();
     let Some(points) = points else { return Err(found.0) };
-    let named = Named::of(&joints, &springs, &loads, &masses, &points);
+    let on_nodes = contacts.iter().zip(&points).filter(|(contact, _)| !contact.is_on_axis());
+    let touching = on_nodes.flat_map(|(_, list)| list).map(|(_, place, _)| *place).collect();
+    let named = Named::of(&joints, &springs, &loads, &masses, touching);
     let build = |(i, mut beam): (usize, Beam)| {
         beam.shear |= shear;
         c.cautions.borrow_mut().extend(beam.left_out());

@@ -1,6 +1,5 @@
 //! The places that the parts of a case name, at which elements end.
 
-use crate::kinds::contact::Point;
 use crate::kinds::joint::Joint;
 use crate::kinds::load::{Acts, Load};
 use crate::kinds::mass::Mass;
@@ -12,15 +11,15 @@ use crate::places::Place;
 pub(super) struct Named(Vec<Place>);
 
 impl Named {
-    /// Of joints, springs, loads, masses and points that may touch.
+    /// Of joints, springs, loads, masses and points that touch.
     pub(super) fn of(
         joints: &[Joint],
         springs: &[Spring],
         loads: &[Load],
         masses: &[Mass],
-        points: &[Vec<Point>],
+        touching: Vec<Place>,
     ) -> Named {
-        let mut all: Vec<Place> = points.iter().flatten().map(|(_, place, _)| *place).collect();
+        let mut all = touching;
         all.extend(joints.iter().flat_map(|joint| joint.between));
         for spring in springs {
             match spring.joins {

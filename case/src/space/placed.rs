@@ -179,6 +179,9 @@ pub(super) fn add_point(
         let middle = 0.5 * parts.beams[beam].0.length;
         return Ok((made(model.contact_beam(beam, contact.radius)), (parts.bodies.len() + beam, middle)));
     }
+    if let (Place::Station { beam, s }, true) = (*place, contact.is_on_axis()) {
+        return Ok((made(model.contact_station(beam, s, contact.radius)), (parts.bodies.len() + beam, s)));
+    }
     let (part, own) = parts.at(*place);
     let marker = marker(model, part, point(contact.at, own, "at")?)?;
     let place = match part {

@@ -270,6 +270,10 @@ impl Dynamics for Commanded {
         if self.feeds_back() { Structure::dense(structure.order() + self.seen.states) } else { structure }
     }
 
+    fn contacts_are_local(&self) -> bool {
+        self.inner.contacts_are_local()
+    }
+
     fn scales(&self) -> &[f64] {
         &self.scales
     }

@@ -52,6 +52,9 @@ pub struct Unresolved {
     pub change: f64,
 }
 
+/// Rows up to which W is formed and relaxed: of more, see [`super::Augmented`].
+pub const FEW: usize = 12;
+
 /// Sweeps allowed.
 const SWEEPS: usize = 200_000;
 /// Change over the largest multiplier at which the relaxation ends: rounding, which may go to and fro for ever.

@@ -16,7 +16,8 @@
 //! A node without mass is given its part of ε K, ε → 0. While no force holds it, its velocity is that of equilibrium,
 //! (M + εK) v = M v⁻, and it is stopped without an impulse.
 
-use super::cone::{RowLaw, Unresolved, solve};
+use super::augmented::Augmented;
+use super::cone::{FEW, RowLaw, Unresolved, solve};
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 
@@ -135,6 +136,8 @@ pub struct ImpactMap {
     /// ε, where M is singular, and the largest entry of M then.
     weight: f64,
     inertia: f64,
+    /// For many rows, whose products have room in M.
+    many: Option<Augmented>,
 }
 
 /// The rows that take part in a problem, with their laws.
@@ -160,6 +163,7 @@ impl ImpactMap {
             velocities: n,
             weight: 0.0,
             inertia: 0.0,
+            many: (m > FEW && system.contacts_are_local()).then(Augmented::default),
         }
     }
 
@@ -207,7 +211,7 @@ impl ImpactMap {
         };
         let b: Vec<f64> = part.rows.iter().map(|&i| before[i] + target(i) + self.along(i, &change)).collect();
         let mut impulses = vec![0.0; part.rows.len()];
-        solve(&part.laws, &w, &b, &mut impulses)?;
+        self.resolve(&part, &w, &b, &mut impulses)?;
         self.add_images(&part, &impulses, &mut change);
         let zeros = || vec![0.0; self.sets.len()];
         let mut impact = Impact { impulses: zeros(), masses: zeros(), ..Impact::default() };
@@ -346,10 +350,11 @@ impl ImpactMap {
         let b: Vec<f64> = part.rows.iter().map(|&i| accelerations[i] + self.along(i, &a)).collect();
         self.pressing.fill(0.0);
         part.rows.iter().zip(&b).for_each(|(&i, b)| self.pressing[i] = -b);
-        let massless = |k: usize| self.weight > 0.0 && w[k * part.rows.len() + k] * self.inertia > MASSLESS;
+        let (weight, inertia) = (self.weight, self.inertia);
+        let massless = |k: usize| weight > 0.0 && w[k * part.rows.len() + k] * inertia > MASSLESS;
         let largest_acceleration = self.largest(&accelerations).max(system.fastest(&a));
         let mut forces = vec![0.0; part.rows.len()];
-        solve(&part.laws, &w, &b, &mut forces)?;
+        self.resolve(&part, &w, &b, &mut forces)?;
         for (mode, set) in state.mode.iter_mut().zip(&self.sets) {
             *mode = if *set == Set::Free { Mode::Closed } else { Mode::Open };
         }
@@ -388,6 +393,24 @@ impl ImpactMap {
             }
         }
         Ok(())
+    }
+
+    /// Λ of u = b + W Λ, from zero.
+    fn resolve(&mut self, part: &Part, w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<(), Unresolved> {
+        let n = self.velocities;
+        if part.rows.len() > FEW
+            && let Some(many) = &mut self.many
+        {
+            many.begin(&part.laws);
+            for i in &part.rows {
+                many.push(self.jacobian[i * n..(i + 1) * n].iter().copied().enumerate());
+            }
+            self.rhs.fill(0.0);
+            if many.solve(&mut self.matrix, b, lambda, &mut self.rhs).is_ok() {
+                return Ok(());
+            }
+        }
+        solve(&part.laws, w, b, lambda).map(drop)
     }
 
     /// The contacts that `takes_part`, with their friction; `slip` gives ±μ of friction that slips.
@@ -436,6 +459,9 @@ impl ImpactMap {
                 } else {
                     self.matrix.add(n + i, n + i, 1.0);
                 }
+            }
+            if let Some(many) = &mut self.many {
+                many.keep(&self.matrix);
             }
             match self.matrix.factor() {
                 Ok(_) => return Ok(()),

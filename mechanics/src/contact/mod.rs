@@ -7,8 +7,10 @@
 //! | `points.rs` | what a model says of its points |
 //! | `contacting/` | a model with contacts: rows, forces, energies |
 //! | `cone.rs` | multipliers in their sets: u = b + W Λ, u and Λ complementary |
+//! | `augmented.rs` | the same of many rows, by Newton's method for the motion that they make |
 //! | `impact.rs` | velocities behind an impact, and the modes of the rows then |
 
+mod augmented;
 mod cone;
 mod contacting;
 mod force;
@@ -16,7 +18,8 @@ mod impact;
 mod obstacle;
 mod points;
 
-pub use cone::{RowLaw, Unresolved, solve};
+pub use augmented::Augmented;
+pub use cone::{FEW, RowLaw, Unresolved, solve};
 pub use contacting::{Contact, Contacting, Law};
 pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};

@@ -55,11 +55,17 @@ pub struct Variation {
 
 /// A model with points that may touch obstacles. Points are numbered.
 pub trait Points {
-    /// Moves point `k`, if it is any point of a curve, to that nearest to `obstacle` at `s`: the others then speak of it.
+    /// Places point `k` at `s`, of which the others then speak: if it is any point of a curve, at that nearest to `obstacle`.
     fn approach(&mut self, _k: usize, _s: &State, _obstacle: &dyn Obstacle) {}
 
     /// Arc length \[m\] of point `k` on its curve, as [`Points::approach`] found it; `None` for a fixed point.
     fn station(&self, _k: usize) -> Option<f64> {
+        None
+    }
+
+    /// Position of point `k` and radius of the ball about it \[m\], where they cost less than its [motion](Points::motion): they say
+    /// whether it may touch.
+    fn position(&mut self, _k: usize, _s: &State) -> Option<(Vec3, f64)> {
         None
     }
 

@@ -7,12 +7,13 @@
 //! u = value + G x + W (P − P₀),   W = G A⁻¹ Gᵀ,   u and P complementary in the set of each row
 //! ```
 //!
-//! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::solve).
+//! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::solve). Of many rows W is not formed, but the motion
+//! that they make is found with A itself ([`Augmented`]).
 
 use super::rows::Rows;
-use crate::contact::{RowLaw, Unresolved, solve};
+use crate::contact::{Augmented, FEW, RowLaw, Unresolved, solve};
 use crate::linalg::Matrix;
-use crate::system::Set;
+use crate::system::{Dynamics, Set};
 
 /// The rows that take part in a step, and memory for their problem.
 #[derive(Debug, Default)]
@@ -25,12 +26,19 @@ pub(super) struct Impulses {
     solution: Vec<f64>,
     /// A⁻¹ Gᵀ of each row.
     images: Vec<f64>,
+    /// For many rows, whose products have room in A.
+    many: Option<Augmented>,
 }
 
 impl Impulses {
-    /// Memory for `rows` rows and matrices of the given order.
-    pub(super) fn new(rows: usize, order: usize) -> Impulses {
+    /// Memory for the rows of a system and matrices of the given order.
+    pub(super) fn new(system: &dyn Dynamics, order: usize) -> Impulses {
+        let contacts = system.rows().iter().filter(|set| **set != Set::Free).count();
+        let many = contacts > FEW && system.contacts_are_local();
+        // That of many rows is made when it is needed.
+        let rows = if many { FEW } else { system.rows().len() };
         Impulses {
+            many: many.then(Augmented::default),
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
             w: Vec::with_capacity(rows * rows),
@@ -43,6 +51,13 @@ impl Impulses {
     /// Number of rows that take part.
     pub(super) fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    /// Keeps the matrix of an iteration before it is factored, if it may be needed.
+    pub(super) fn keep(&mut self, matrix: &Matrix) {
+        if let Some(many) = &mut self.many {
+            many.keep(matrix);
+        }
     }
 
     /// Chooses joints and contacts that take part; friction does with its normal.
@@ -60,9 +75,10 @@ impl Impulses {
                 self.laws.push(law);
             }
         }
+        let normals = self.rows.len();
         for (i, set) in sets.iter().enumerate() {
             if let Set::Friction { coefficient, normal } = *set
-                && let Some(normal) = self.rows.iter().position(|&row| row == normal)
+                && let Ok(normal) = self.rows[..normals].binary_search(&normal)
             {
                 self.rows.push(i);
                 self.laws.push(RowLaw::Friction { coefficient, normal });
@@ -87,8 +103,26 @@ impl Impulses {
         let along = |row: usize, x: &[f64]| -> f64 {
             jacobian.of_row(row).iter().map(|&(_, j, entry)| entry * x[j]).sum()
         };
+        if m > FEW
+            && Augmented::solves(&self.laws)
+            && let Some(many) = &mut self.many
+        {
+            many.begin(&self.laws);
+            self.b.clear();
+            self.solution.clear();
+            for &row in &self.rows {
+                many.push(jacobian.of_row(row).iter().map(|&(_, j, entry)| (j, entry)));
+                self.b.push(value(row) + along(row, x));
+                self.solution.push(p[row]);
+            }
+            if many.solve(matrix, &self.b, &mut self.solution, x).is_ok() {
+                self.rows.iter().zip(&self.solution).for_each(|(&row, x)| p[row] = *x);
+                return Ok(());
+            }
+        }
         self.w.clear();
         self.w.resize(m * m, 0.0);
+        self.images.resize(self.images.len().max(m * n), 0.0);
         for (k, &row) in self.rows.iter().enumerate() {
             let image = &mut self.images[k * n..(k + 1) * n];
             image.fill(0.0);

@@ -42,6 +42,20 @@ impl Integration {
         self.counters
     }
 
+    /// Counts the work of another method, to which the run went over for a time, as its own.
+    pub(crate) fn absorb(&mut self, other: &Integration) {
+        let of = &other.counters;
+        let Counters { steps, rejected, iterations, residuals, tangents, factorizations, solves } =
+            &mut self.counters;
+        *steps += of.steps;
+        *rejected += of.rejected;
+        *iterations += of.iterations;
+        *residuals += of.residuals;
+        *tangents += of.tangents;
+        *factorizations += of.factorizations;
+        *solves += of.solves;
+    }
+
     /// Attempts one step from `from`, writing the new state to `to`.
     ///
     /// # Errors

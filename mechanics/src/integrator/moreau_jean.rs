@@ -86,7 +86,7 @@ impl MoreauSteps {
             start: zeros(m),
             gaps: zeros(m),
             rates: zeros(m),
-            part: Impulses::new(m, n),
+            part: Impulses::new(system, n),
             scale: system.scales().to_vec(),
         }
     }
@@ -122,6 +122,7 @@ impl MoreauSteps {
             let weights =
                 Weights { a: 1.0, v: theta * h, q: (theta * h).powi(2), increment: Some(&self.increment) };
             system.tangent(&self.middle, weights, &mut self.matrix);
+            self.part.keep(&self.matrix);
             self.matrix.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
             self.rhs.iter_mut().for_each(|r| *r *= -h);
             self.matrix.solve(&mut self.rhs);

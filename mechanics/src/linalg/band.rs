@@ -57,6 +57,16 @@ impl<T: Scalar> Band<T> {
         }
     }
 
+    /// Takes the content of another of the same order.
+    pub(super) fn copy_from(&mut self, other: &Band<T>) {
+        (self.n, self.lower, self.upper, self.width) = (other.n, other.lower, other.upper, other.width);
+        self.data.clone_from(&other.data);
+        self.pivots.clone_from(&other.pivots);
+        self.first_exchange = other.first_exchange;
+        self.deflated.clone_from(&other.deflated);
+        self.column_size.clone_from(&other.column_size);
+    }
+
     /// The same matrix with the memory that deflation takes.
     pub(super) fn deflatable(self) -> Band<T> {
         Band { column_size: vec![0.0; self.n], ..self }

@@ -16,6 +16,21 @@ impl<T: Scalar> Dense<T> {
         Dense { n, data: vec![T::ZERO; n * n], pivots: vec![0; n] }
     }
 
+    /// Takes the content of another.
+    pub(super) fn copy_from(&mut self, other: &Dense<T>) {
+        self.n = other.n;
+        self.data.clone_from(&other.data);
+        self.pivots.clone_from(&other.pivots);
+    }
+
+    /// Makes it the zero matrix of another order.
+    pub(super) fn resize(&mut self, n: usize) {
+        self.n = n;
+        self.data.clear();
+        self.data.resize(n * n, T::ZERO);
+        self.pivots.resize(n, 0);
+    }
+
     /// Order of the matrix.
     pub fn order(&self) -> usize {
         self.n
@@ -86,7 +101,7 @@ impl<T: Scalar> Dense<T> {
             // A NaN pivot is refused too.
             if !(best > NOTHING) {
                 let largest = self.data.iter().map(|x| x.size()).fold(0.0, f64::max);
-                return Err(Singular { index: k, pivot: best / largest });
+                return Err(Singular { index: k, pivot: best / largest.max(NOTHING) });
             }
             self.pivots[k] = p;
             if p != k {

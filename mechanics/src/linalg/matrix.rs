@@ -347,6 +347,16 @@ impl<T: Scalar> Matrix<T> {
         &mut self.storage
     }
 
+    /// Takes the content of another of the same structure that is not factored.
+    pub fn copy_from(&mut self, other: &Matrix<T>) {
+        debug_assert!(!other.factored, "the entries are overwritten by the factors");
+        match (self.begin(), &other.storage) {
+            (Storage::Dense(a), Storage::Dense(b)) => a.copy_from(b),
+            (Storage::Band(a), Storage::Band(b)) => a.copy_from(b),
+            _ => debug_assert!(false, "structures differ"),
+        }
+    }
+
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.begin().clear();

@@ -336,3 +336,52 @@ fn a_combination_is_kept_while_stamps_and_weights_stay() {
     sum.combine([&a, &b, &c], [weights[0], weights[1], Complex64::ONE]);
     assert!(!sum.is_factored(), "another term");
 }
+
+/// Of many border unknowns a few couple to others, as contacts that are closed among those that are open.
+#[test]
+fn border_unknowns_that_couple_to_nothing_are_their_diagonal_alone() {
+    let (n, border) = (30, 40);
+    let structure = Structure::band(n, 2, 2, border);
+    for coupled in [0, 3, 25] {
+        let mut numbers = Numbers(coupled as u64 + 5);
+        let mut a: Matrix = Matrix::new(&structure);
+        let mut b: Matrix = Matrix::new(&Structure::dense(n + border));
+        // The second time in the memory of other unknowns.
+        for first in [1, 7] {
+            a.clear();
+            b.clear();
+            let mut add = |i: usize, j: usize, x: f64| {
+                a.add(i, j, x);
+                b.add(i, j, x);
+            };
+            for i in 0..n {
+                (i.saturating_sub(2)..(i + 3).min(n)).for_each(|j| add(i, j, numbers.next()));
+                add(i, i, 5.0);
+            }
+            for k in 0..border {
+                add(n + k, n + k, 2.0 + numbers.next());
+            }
+            for k in (first..border).take(coupled) {
+                add(k % n, n + k, numbers.next());
+                add(n + k, (3 * k) % n, numbers.next());
+                add(n + k, n + (k + 1) % border, 0.3 * numbers.next());
+            }
+            let x: Vec<f64> = (0..n + border).map(|_| numbers.next()).collect();
+            let (mut ax, mut bx) = (vec![0.0; n + border], vec![0.0; n + border]);
+            a.multiply(&x, &mut ax);
+            b.multiply(&x, &mut bx);
+            let mut copy = a.clone();
+            copy.copy_from(&a);
+            a.factor().unwrap();
+            a.solve(&mut ax);
+            copy.factor().unwrap();
+            copy.solve(&mut bx);
+            for ((x, a), b) in x.iter().zip(&ax).zip(&bx) {
+                assert!((x - a).abs() < 1e-11 && (x - b).abs() < 1e-11, "{coupled}: {x} {a} {b}");
+            }
+        }
+    }
+    let mut alone: Matrix = Matrix::new(&Structure::band(2, 1, 1, 2));
+    (0..3).for_each(|i| alone.add(i, i, 1.0));
+    assert_eq!(alone.factor().unwrap_err().index, 3);
+}

@@ -26,7 +26,7 @@
 //! | `row` | scalar constraints between two markers |
 //! | `joint` | joints as lists of rows, with their drives |
 //! | `force` | springs, dampers, actuators and loads as forces between two markers |
-//! | `contact_point`, `nearest` | a point that may touch obstacles; that of a beam nearest to one |
+//! | `contact_point`, `on_axis` | a point that may touch obstacles; one on the axis of a beam, at a station or nearest to an obstacle |
 //! | `contact_points` | what contacts ask of them |
 //! | `layout` | order of bodies, nodes of beams and multipliers along the tree |
 //! | `model` | what a user builds, with its faults |
@@ -63,8 +63,8 @@ mod line_law;
 mod line_load;
 mod marker;
 mod model;
-mod nearest;
 mod observed;
+mod on_axis;
 mod reason;
 mod root_axes;
 mod rotating;

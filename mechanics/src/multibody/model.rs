@@ -1,7 +1,7 @@
 //! What a user builds: bodies, joints, springs and loads, with their faults.
 
 use super::body::Body;
-use super::contact_point::ContactPoint;
+use super::contact_point::{Along, ContactPoint};
 use super::error::{ModelError, PartFault};
 use super::flexible::Flexible;
 use super::force::{Directions, Load, Spring};
@@ -102,15 +102,25 @@ impl Model {
 
     /// The same of a ball of this radius \[m\] about the point, which slides and rolls on obstacles with its surface.
     pub fn contact_ball(&mut self, at: Marker, radius: f64) -> usize {
-        self.points.push(ContactPoint { at, radius, anywhere: false });
+        self.points.push(ContactPoint { at, radius, axis: None });
         self.points.len() - 1
     }
 
     /// The same of the point of a beam that is nearest to the obstacle, wherever it is. The beam is round with this radius \[m\];
     /// friction acts on its centreline.
     pub fn contact_beam(&mut self, beam: usize, radius: f64) -> usize {
+        self.contact_along(beam, radius, Along::Nearest)
+    }
+
+    /// The same of the point of the axis of a beam at the arc length `station` \[m\], r = Σ Nᵢ xᵢ, at which the beam needs no node. The beam is
+    /// round with this radius \[m\]; friction acts on its centreline.
+    pub fn contact_station(&mut self, beam: usize, station: f64, radius: f64) -> usize {
+        self.contact_along(beam, radius, Along::Station(station))
+    }
+
+    fn contact_along(&mut self, beam: usize, radius: f64, axis: Along) -> usize {
         let at = Marker::new(Part::Section { beam, node: 0 }, [0.0; 3]);
-        self.points.push(ContactPoint { at, radius, anywhere: true });
+        self.points.push(ContactPoint { at, radius, axis: Some(axis) });
         self.points.len() - 1
     }
 

@@ -21,7 +21,7 @@ use super::joint::Drive;
 use super::line_law::Sampled;
 use super::marker::{MOST, Part, Pose};
 use super::model::Model;
-use super::nearest::Nearest;
+use super::on_axis::OnAxis;
 use super::rotation::{Quaternion, rate};
 use super::row::{Row, Value, Wrench};
 use super::{consistency, start};
@@ -52,8 +52,8 @@ pub struct Multibody {
     pub(super) poses: Vec<Pose>,
     /// Prescribed motion of each joint, and the time for which it was computed.
     pub(super) motions: Vec<HubKinematics>,
-    /// Of the contact points that may be any of a beam, the one at hand.
-    pub(super) nearest: Vec<Nearest>,
+    /// Of the contact points on the axis of a beam, where each is.
+    pub(super) on_axis: Vec<OnAxis>,
     /// Force laws at the points of their beams.
     pub(super) sampled: Vec<Sampled>,
     /// Of the states that were judged.
@@ -121,9 +121,11 @@ impl Multibody {
         });
         let poses = poses.collect();
         let (bodies, joints) = (constants.place.len(), constants.of_joint.len());
-        let beam = |point: &ContactPoint| point.beam().map(|beam| &constants.model.beams[beam].beam);
-        let nearest = |point: &ContactPoint| beam(point).map_or_else(Nearest::default, Nearest::of);
-        let nearest = constants.model.points.iter().map(nearest).collect();
+        let on_axis = |point: &ContactPoint| match (point.beam(), point.axis) {
+            (Some(beam), Some(along)) => OnAxis::new(&constants.model.beams[beam].beam, along),
+            _ => OnAxis::default(),
+        };
+        let on_axis = constants.model.points.iter().map(on_axis).collect();
         let beams = &constants.model.beams;
         let laws = constants.model.line_laws.iter();
         let sampled = laws.map(|law| Sampled::new(law, &beams[law.beam].beam)).collect();
@@ -136,7 +138,7 @@ impl Multibody {
             placed: vec![Placed::default(); bodies],
             poses,
             motions: vec![HubKinematics::default(); joints],
-            nearest,
+            on_axis,
             sampled,
             bending: Bending::default(),
             time: f64::NAN,
@@ -166,13 +168,14 @@ impl Multibody {
         self.constants.size.v - self.constants.size.lambda
     }
 
-    /// Places bodies and markers.
+    /// Places bodies and markers, but for those of contact points, each of which is placed where it is looked at.
     pub(super) fn place(&mut self, s: &State) {
         let Multibody { constants, placed, poses, motions, time, .. } = self;
+        let own = poses.len() - constants.model.points.len();
         for (i, placed) in placed.iter_mut().enumerate() {
             *placed = Placed::new(&s.q[7 * i..], &s.v[6 * i..], &s.a[6 * i..]);
         }
-        for (pose, (part, frame)) in poses.iter_mut().zip(&constants.markers) {
+        for (pose, (part, frame)) in poses[..own].iter_mut().zip(&constants.markers) {
             match part {
                 Part::Ground => {}
                 Part::Body(i) => pose.place(&placed[constants.place[*i]], frame),
@@ -301,7 +304,8 @@ impl Multibody {
             let acting = (law.law.as_ref(), s.time(), -self.part);
             sampled.add_tangent(acting, [&s.q[i..], &s.v[j..]], &w, (j, out));
         }
-        self.poses.iter_mut().for_each(|pose| pose.transport());
+        let own = self.poses.len() - model.points.len();
+        self.poses[..own].iter_mut().for_each(|pose| pose.transport());
         let ground = Pose::default();
         self.interactions(s, true, |a, b, interaction| {
             add_tangent((a.unwrap_or(&ground), b), interaction, &w, out);

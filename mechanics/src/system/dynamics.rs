@@ -69,6 +69,11 @@ pub trait Dynamics: Send {
         Structure::dense(size.v + multipliers * size.lambda)
     }
 
+    /// Whether the matrix of the unknowns has room for GᵀG of each contact, with its row of G and those of its friction.
+    fn contacts_are_local(&self) -> bool {
+        false
+    }
+
     /// The size (> 0) by which errors and increments of each velocity's unknown are measured: `Size::v` entries, a
     /// length in metres for displacements, 1 for angles and slopes.
     fn scales(&self) -> &[f64];

@@ -8,6 +8,7 @@ mod blades;
 mod chain;
 mod conformance;
 mod contacts;
+mod crowds;
 mod damped;
 mod extremes;
 mod faults;

@@ -102,10 +102,20 @@ fn an_obstacle_that_touches_anywhere_conforms() {
 }
 
 fn touches_anywhere(beam: Flexible) {
+    // The nearest point, and one of a station, which is no node.
+    for station in [None, Some(0.77)] {
+        touches(beam.clone(), station);
+    }
+}
+
+fn touches(beam: Flexible, station: Option<f64>) {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let beam = model.beam(beam);
     assert_eq!(beam, 0);
-    model.contact_beam(0, 0.02);
+    match station {
+        Some(station) => model.contact_station(0, station, 0.02),
+        None => model.contact_beam(0, 0.02),
+    };
     let axis = [0.0, 0.8, 0.6];
     let obstacles: [&Made; 3] = [
         // Within an element, beside an end, and a rod across.

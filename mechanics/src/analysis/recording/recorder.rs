@@ -34,6 +34,19 @@ pub struct Columns {
     pub modal_shares: bool,
 }
 
+/// An imbalance of the energy, over what bursts have lost, up to which it is that.
+const SAME: f64 = 1.1;
+
+/// Bursts of contacts that chattered, all together.
+#[derive(Clone, Copy, Debug, Default)]
+struct Chatter {
+    begin: f64,
+    duration: f64,
+    bursts: u64,
+    step: f64,
+    lost: f64,
+}
+
 /// Records the channels of a system and what every run has: the total energy, the size of the step and
 /// the iterations it took.
 pub struct Recorder<'a> {
@@ -47,6 +60,10 @@ pub struct Recorder<'a> {
     gain: Option<f64>,
     /// The first time at which a point may have stepped over an obstacle, and the name of its contact.
     stepped_over: Option<(f64, String)>,
+    /// Bursts of contacts that chattered.
+    chatter: Option<Chatter>,
+    /// When events of continuous forces began to follow each other fast, and the time between them.
+    grinds: Option<(f64, f64)>,
     passing: Passing,
     /// Whether the steps are fixed.
     fixed: bool,
@@ -143,6 +160,8 @@ impl<'a> Recorder<'a> {
             energies,
             gain: None,
             stepped_over: None,
+            chatter: None,
+            grinds: None,
             passing,
             fixed: plan.step.is_some(),
             watch: None,
@@ -180,13 +199,23 @@ impl<'a> Recorder<'a> {
     fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
         let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
         let doubtful = self.imbalance().or_else(|| self.lost());
-        let doubtful =
-            doubtful.filter(|(size, _)| *size > rounding_energy(system, state)).map(|(_, warning)| warning);
+        // What bursts have lost is said of them.
+        let known = self.chatter.map_or(0.0, |of| SAME * of.lost).max(rounding_energy(system, state));
+        let doubtful = doubtful.filter(|(size, _)| *size > known).map(|(_, warning)| warning);
         let stepped_over = self.stepped_over.clone();
         let stepped_over = stepped_over.map(|(time, contact)| Warning::SteppedOver { time, contact });
         let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
         let coarse = coarse.map(|steps| Warning::FewStepsAPeriod { steps, wanted: STEPS_A_PERIOD });
-        gain.or(doubtful).into_iter().chain(stepped_over).chain(coarse).collect()
+        let chatter = self.chatter.map(|Chatter { begin, duration, bursts, step, lost }| Warning::Chatter {
+            begin,
+            duration,
+            bursts,
+            step,
+            lost,
+        });
+        let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
+        let of_contacts = stepped_over.into_iter().chain(chatter).chain(grinds);
+        gain.or(doubtful).into_iter().chain(of_contacts).chain(coarse).collect()
     }
 
     /// An energy balance that does not close, with its largest value \[J\].
@@ -274,6 +303,18 @@ impl Observer for Recorder<'_> {
         if self.stepped_over.is_none() {
             self.stepped_over = Some((time, self.events.name_of_row(row).to_owned()));
         }
+    }
+
+    fn burst(&mut self, begin: f64, end: f64, step: f64, lost: f64) {
+        let all = self.chatter.get_or_insert(Chatter { begin, ..Chatter::default() });
+        all.duration += end - begin;
+        all.bursts += 1;
+        all.step = all.step.max(step);
+        all.lost += lost;
+    }
+
+    fn grinds(&mut self, time: f64, mean: f64) {
+        self.grinds.get_or_insert((time, mean));
     }
 
     fn passing(&mut self, system: &mut dyn System, state: &State) {

@@ -46,6 +46,35 @@ pub enum Warning {
         /// Name of the contact.
         contact: String,
     },
+    /// Contacts chattered, and were followed by steps of a nonsmooth method.
+    #[error(
+        "contacts chatter from t = {begin:.6} s on, faster than their events can be found one by one: {duration:.4} s of the run, in \
+         {bursts} burst{}, are computed by nonsmooth steps of at most {step:.2e} s, to which the times of impacts in them are known, and whose \
+         balance of energy is off by {lost:.2e} J, counted as lost in contacts",
+        if *bursts == 1 { "" } else { "s" }
+    )]
+    Chatter {
+        /// Begin of the first burst \[s\].
+        begin: f64,
+        /// Duration of all bursts \[s\].
+        duration: f64,
+        /// Number of bursts.
+        bursts: u64,
+        /// Longest step \[s\].
+        step: f64,
+        /// By what the balance of energy of the steps is off \[J\].
+        lost: f64,
+    },
+    /// Events of continuous forces follow each other fast.
+    #[error(
+        "from t = {time:.6} s on, forces of contacts begin and end every {mean:.1e} s, each located as an event: the run takes long"
+    )]
+    Grinds {
+        /// Time \[s\].
+        time: f64,
+        /// Mean time between events \[s\].
+        mean: f64,
+    },
     /// Fixed steps do not resolve the vibration that makes up most of the motion.
     #[error(
         "the motion is mostly a vibration of {steps:.1} steps a period, and its amplitude and phase need {wanted} at least"

@@ -1,5 +1,6 @@
 //! Contacts of a run: impacts, and which contacts are closed.
 
+use super::chatter::Chatter;
 use super::ending::RunError;
 use super::locate::{Locator, TOUCHING, lowest};
 use super::{Event, EventKind};
@@ -32,6 +33,12 @@ pub(super) struct Contacts {
     rates: Vec<f64>,
     /// Events in a row with no time between them.
     events: usize,
+    /// How fast events of different contacts follow each other, and the contact of the last event.
+    pub(super) chatter: Chatter,
+    pub(super) last: Option<usize>,
+    /// The same of the indicators of the model and of continuous forces.
+    pub(super) touches: Chatter,
+    pub(super) touched: Option<usize>,
     /// Whether the integrator resolves the contacts, so that only the model's own indicators are looked at.
     pub(super) resolved: bool,
 }
@@ -46,6 +53,10 @@ impl Contacts {
             neglected: Neglected::default(),
             rates: vec![0.0; state.lambda.len()],
             events: 0,
+            chatter: Chatter::default(),
+            last: None,
+            touches: Chatter::default(),
+            touched: None,
             resolved: false,
         })
     }
@@ -104,17 +115,32 @@ impl Contacts {
     }
 
     /// What later steps depend on, as numbers.
-    pub(super) fn memory(&self) -> [f64; 7] {
+    pub(super) fn memory(&self) -> [f64; 17] {
         let Neglected { count, time, gap, energy } = self.neglected;
         let strongest = self.locator.strongest;
-        [self.fastest, strongest, self.events as f64, count as f64, time, gap, energy]
+        let ([h, i, j, k, l], [m, n, o, p, q]) = (self.chatter.memory(), self.touches.memory());
+        let own = [self.fastest, strongest, self.events as f64, count as f64, time, gap, energy];
+        let [a, b, c, d, e, f, g] = own;
+        [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q]
     }
 
     /// From the [memory](Contacts::memory) of a run.
-    pub(super) fn recall(&mut self, memory: [f64; 7]) {
-        let [fastest, strongest, events, count, time, gap, energy] = memory;
+    pub(super) fn recall(&mut self, memory: [f64; 17]) {
+        let [fastest, strongest, events, count, time, gap, energy, h, i, j, k, l, touches @ ..] = memory;
+        (self.chatter, self.touches) = (Chatter::recall([h, i, j, k, l]), Chatter::recall(touches));
         (self.fastest, self.locator.strongest, self.events) = (fastest, strongest, events as usize);
         self.neglected = Neglected { count: count as u64, time, gap, energy };
+    }
+
+    /// Remembers the contact of an event: one that was open and strikes, or whose mode has changed.
+    pub(super) fn remember(&mut self, sets: &[Set], before: &State, after: &State, impact: &Impact) {
+        let normals = || (0..sets.len()).filter(|i| matches!(sets[*i], Set::Unilateral { .. }));
+        let strikes = |i: &usize| before.mode[*i] == Mode::Open && impact.impulses[*i] != 0.0;
+        let changes = |i: &usize| before.mode[*i] != after.mode[*i];
+        self.last = normals().find(strikes).or_else(|| normals().find(changes)).or_else(|| {
+            let changed = (0..sets.len()).find(|i| before.mode[*i] != after.mode[*i])?;
+            if let Set::Friction { normal, .. } = sets[changed] { Some(normal) } else { None }
+        });
     }
 
     /// Counts the events that follow each other with no time between them.

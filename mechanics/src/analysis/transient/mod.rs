@@ -6,6 +6,8 @@
 
 mod adaptive;
 mod breaks;
+mod burst;
+mod chatter;
 mod contacts;
 mod ending;
 mod locate;
@@ -30,9 +32,12 @@ use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, RowWeights, Side, State, System};
 use adaptive::adapt;
 use breaks::{is_fixed, jump_at, next_break, stop};
+use chatter::Bursts;
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
 use segment::Segment;
 
+/// Blocks of events of continuous forces, too fast for what is left of a run, behind which it says so: those of one flat fall are no reason.
+const GRINDING: u32 = 50;
 /// Part of a fixed step that is not taken as a step of its own.
 const SLIVER: f64 = 1e-6;
 /// What is too short for a step, over the step that is due and over the time: what a step divides by its square would be rounding.
@@ -110,6 +115,18 @@ struct Run {
     gaps: Vec<f64>,
     /// Whether the next step is the first of a smooth motion.
     begins: bool,
+    bursts: Bursts,
+}
+
+/// Why a part of a run with one method is over.
+#[derive(Clone, Debug, PartialEq)]
+enum Leg {
+    /// The run is.
+    Ended(Ending),
+    /// Contacts chatter.
+    Chatters,
+    /// The contacts of a burst have come to rest.
+    Settled,
 }
 
 impl Run {
@@ -128,6 +145,7 @@ impl Run {
             middle: state.clone(),
             gaps: vec![0.0; state.lambda.len()],
             begins: true,
+            bursts: Bursts::default(),
         }
     }
 
@@ -162,112 +180,6 @@ impl Run {
         Ok(integration)
     }
 
-    /// Takes up a run where a checkpoint was made.
-    fn resume(
-        &mut self,
-        system: &mut dyn System,
-        integrator: &dyn Integrator,
-        from: &Checkpoint,
-        state: &mut State,
-        plan: &Plan,
-        observer: &mut dyn Observer,
-    ) -> Result<Integration, NotResumed> {
-        from.check_format()?;
-        from.check_numbers()?;
-        from.fill_state("", state)?;
-        let [origin, samples, begins] = from.finite("run")?;
-        if !(origin <= state.t && samples >= 0.0) {
-            return Err(NotResumed::Invalid("run".to_owned()));
-        }
-        (self.origin, self.samples, self.begins) = (origin, samples as u64, begins != 0.0);
-        let [size, iterations] = from.finite("last")?;
-        self.last = Step { size, iterations: iterations as u32, ..Step::default() };
-        let [sample] = from.finite("sample")?;
-        if sample != plan.sample {
-            let before = (state.t - origin) / plan.sample;
-            self.samples = (before + 1e-9).floor().max(0.0) as u64 + 1;
-        }
-        if let Some(asked) = plan.step.filter(|_| is_fixed(integrator.info())) {
-            let segment = from.finite("segment")?;
-            let stop = next_break(system, integrator.info(), state.t, plan.end);
-            let recalled = if jump_at(system, integrator.info(), state.t).is_some() {
-                // The run ended at a break: behind it begins another segment.
-                Ok((Segment::new(state.t, stop, asked), state.t))
-            } else {
-                Segment::recall(segment, stop, asked)
-            };
-            let (segment, at) = recalled.map_err(|[before, now]| {
-                NotResumed::Failed(format!(
-                    "the run was made with steps of {before} s, and until {} s steps would be {now} s: give the step \
-                     and a duration that is a multiple of it",
-                    plan.end
-                ))
-            })?;
-            // Where the run ended inside a step, that step goes on.
-            if (state.t - at).abs() <= 1e-9 * segment.step {
-                state.t = at;
-            }
-            self.segment = Some(segment);
-        }
-        if integrator.resolves_contacts() {
-            self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
-        }
-        let step = self.segment.map_or(plan.end - origin, |segment| segment.step);
-        let started = integrator.start(system, &mut state.clone(), step);
-        let mut integration = started.map_err(|error| NotResumed::Failed(error.to_string()))?;
-        self.set_control(system, integrator.info(), state, plan);
-        if let Some(control) = &mut self.control {
-            let memory: [f64; 4] = from.numbers("control")?;
-            if !(memory[0] > 0.0 && memory[0].is_finite()) {
-                return Err(NotResumed::Invalid("control".to_owned()));
-            }
-            control.recall(memory);
-        }
-        if let Some(contacts) = &mut self.contacts {
-            contacts.recall(from.numbers("contacts")?);
-        }
-        if observer.wants_energy_balance() {
-            let mut balance = Integral::new(system, integrator.info().order, state);
-            balance.recall(from)?;
-            self.balance = Some(balance);
-        }
-        integration.resume(system, from)?;
-        observer.resume(from)?;
-        Ok(integration)
-    }
-
-    /// What [`Run::resume`] needs.
-    fn checkpoint(
-        &self,
-        integration: Option<&Integration>,
-        state: &State,
-        sample: f64,
-        observer: &dyn Observer,
-    ) -> Checkpoint {
-        let mut out = Checkpoint::of_this_format();
-        out.put_state("", state);
-        out.put("run", &[self.origin, self.samples as f64, f64::from(u8::from(self.begins))]);
-        out.put("sample", &[sample]);
-        out.put("last", &[self.last.size, f64::from(self.last.iterations)]);
-        if let Some(segment) = &self.segment {
-            out.put("segment", &segment.memory());
-        }
-        if let Some(control) = &self.control {
-            out.put("control", &control.memory());
-        }
-        if let Some(contacts) = &self.contacts {
-            out.put("contacts", &contacts.memory());
-        }
-        if let Some(balance) = &self.balance {
-            balance.save(&mut out);
-        }
-        if let Some(integration) = integration {
-            integration.save(&mut out);
-        }
-        observer.save(&mut out);
-        out
-    }
-
     fn set_control(&mut self, system: &mut dyn System, info: &Info, state: &State, plan: &Plan) {
         let span = plan.end - self.origin;
         self.control = info.estimate_order.map(|order| {
@@ -297,6 +209,7 @@ impl Run {
         ending
     }
 
+    /// The legs of a run: with its own method, and with a nonsmooth one while contacts chatter.
     fn integrate(
         &mut self,
         system: &mut dyn System,
@@ -305,6 +218,27 @@ impl Run {
         plan: &Plan,
         observer: &mut dyn Observer,
     ) -> Result<Ending, RunError> {
+        loop {
+            if let Some(mean) = self.bursts.due.take()
+                && let Some(ending) = self.burst(system, integrator, state, (plan, mean), observer)?
+            {
+                return Ok(ending);
+            }
+            if let Leg::Ended(ending) = self.leg(system, integrator, state, plan, observer)? {
+                return Ok(ending);
+            }
+        }
+    }
+
+    /// Integrates with one method.
+    fn leg(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut Integration,
+        state: &mut State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Result<Leg, RunError> {
         let mut next = state.clone();
         while state.t < plan.end {
             let mut stop = stop(system, integrator.info(), state.t, plan.end);
@@ -330,7 +264,8 @@ impl Run {
                     (Err(error), _) => return Err(error),
                 }
             }
-            let neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
+            let mut neglected = self.contacts.as_ref().map(|contacts| contacts.neglected).unwrap_or_default();
+            neglected.add(self.bursts.neglected());
             self.last = Step { size: h, iterations: report.iterations, balance: None, neglected };
             if let Err(what) = system.admissible(&next) {
                 let reason = system.explain(&next).filter(|reason| *reason != what);
@@ -372,6 +307,7 @@ impl Run {
                 }
             }
             observer.passing(system, &next);
+            let rests = self.bursts.count(system, h, struck.as_ref());
             if resolves {
                 if let Some(event) = struck {
                     observer.event(&event);
@@ -387,8 +323,10 @@ impl Run {
                 }
             }
             std::mem::swap(state, &mut next);
+            let mut contact = None;
             if event || at_break.is_some() {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
+                contact = self.contacts.as_mut().and_then(|contacts| contacts.last.take());
                 observer.passing(system, state);
                 if let Some(control) = &mut self.control {
                     control.restart(attempted);
@@ -397,11 +335,33 @@ impl Run {
                     self.divide(system, integrator, state.t, plan);
                 }
             }
+            let left = plan.end - state.t;
+            if let Some(contacts) = self.contacts.as_mut().filter(|contacts| !contacts.resolved) {
+                let touched = contacts.touched.take();
+                if let Some(mean) = contacts.touches.count(state.t, touched, left)
+                    && contacts.touches.fast >= GRINDING
+                {
+                    observer.grinds(state.t, mean);
+                }
+                self.bursts.due = contacts.chatter.count(state.t, contact, left);
+            }
             if observer.step(state).is_break() && state.t < plan.end {
-                return Ok(Ending::Stopped);
+                return Ok(Leg::Ended(Ending::Stopped));
+            }
+            if self.bursts.due.is_some() && state.t < plan.end {
+                return Ok(Leg::Chatters);
+            }
+            if rests && state.t < plan.end {
+                return Ok(Leg::Settled);
+            }
+            if let Some(step) = self.bursts.longer()
+                && state.t < plan.end
+            {
+                let end = next_break(system, integrator.info(), state.t, plan.end);
+                self.segment = Some(Segment::new(state.t, end, step));
             }
         }
-        Ok(Ending::Finished)
+        Ok(Leg::Ended(Ending::Finished))
     }
 
     /// Whether the time until `stop` is too short for a step.
@@ -521,6 +481,7 @@ impl Run {
         {
             let fired = contacts.locator.fired();
             if !fired.is_empty() {
+                contacts.touched = fired.first().copied();
                 let crossing = system.cross(&fired, state);
                 happened.push(EventKind::Crossing { indicators: fired });
                 match crossing {
@@ -559,6 +520,7 @@ impl Run {
                 happened.push(EventKind::Jump { work });
             }
             lost = impact.lost;
+            contacts.remember(system.rows(), &before, state, &impact);
             happened.push(if impact.impulses.iter().any(|x| *x != 0.0) {
                 let Impact { impulses, rates, masses, .. } = impact;
                 EventKind::Impact { impulses, lost, rates, masses }

@@ -98,6 +98,14 @@ pub trait Observer {
     /// method locates no events, and a point may have passed through an obstacle.
     fn stepped_over(&mut self, _time: f64, _row: usize) {}
 
+    /// From `begin` to `end` contacts chattered, and were followed by steps of a nonsmooth method that are not longer than `step` \[s\]; their balance of
+    /// energy is off by `off` \[J\], which is counted as lost in contacts.
+    fn burst(&mut self, _begin: f64, _end: f64, _step: f64, _off: f64) {}
+
+    /// At `time` continuous forces of contacts, or what the model indicates, begin and end so fast, with the time `mean` \[s\] between, that the run has more events
+    /// before it than it is likely to come through.
+    fn grinds(&mut self, _time: f64, _mean: f64) {}
+
     /// Adds to the checkpoint of the run what it depends on later of what it has seen.
     fn save(&self, _out: &mut Checkpoint) {}
 

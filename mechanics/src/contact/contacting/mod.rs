@@ -120,6 +120,19 @@ impl Placed {
         Proximity::new(model, self.contact.point, self.contact.obstacle.as_ref(), s)
     }
 
+    /// Whether it is a row without a force.
+    fn is_open(&self, s: &State) -> bool {
+        let rows = std::iter::once(self.place).chain(self.friction.clone());
+        matches!(self.contact.law, Law::Constraint { .. }) && rows.into_iter().all(|i| s.lambda[i] == 0.0)
+    }
+
+    /// The same, if it may act on the model: a row always, a force where the point touches.
+    fn acting(&self, model: &mut impl Points, s: &State) -> Option<Proximity> {
+        let Contact { point, obstacle, law, .. } = &self.contact;
+        let away = matches!(law, Law::Force(_)) && Proximity::is_away(model, *point, obstacle.as_ref(), s);
+        (!away).then(|| self.proximity(model, s))
+    }
+
     /// The forces at a state.
     fn forces(&self, near: &Proximity, s: &State, memory: usize) -> Forces {
         match &self.contact.law {
@@ -266,11 +279,20 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
         }
     }
 
+    /// Calls `f` for every contact that may act, as [`Contacting::each`] does for all.
+    fn each_acting(&mut self, s: &State, mut f: impl FnMut(&Placed, &Proximity, &Forces)) {
+        for placed in &self.contacts {
+            if let Some(near) = placed.acting(&mut self.inner, s) {
+                f(placed, &near, &placed.forces(&near, s, self.memory));
+            }
+        }
+    }
+
     /// Tells the model the forces on its points.
     fn set_forces(&mut self, s: &State) {
         self.inner.begin_forces();
         for placed in &self.contacts {
-            let near = placed.proximity(&mut self.inner, s);
+            let Some(near) = placed.acting(&mut self.inner, s) else { continue };
             let force = placed.forces(&near, s, self.memory).vector(&near.surface);
             self.inner.add_force(placed.contact.point, s, force);
         }
@@ -279,7 +301,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
     /// Energy stored in contacts.
     fn stored(&mut self, s: &State) -> f64 {
         let mut stored = 0.0;
-        self.each(s, |placed, near, _| {
+        self.each_acting(s, |placed, near, _| {
             if let Law::Force(law) = &placed.contact.law {
                 stored += law.stored(-near.surface.gap);
             }
@@ -289,7 +311,7 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
 
     /// Adds the power of the contacts: moving obstacles and the prescribed motion of the model drive, friction and damping lose.
     fn add_power(&mut self, s: &State, power: &mut Power) {
-        self.each(s, |placed, near, forces| {
+        self.each_acting(s, |placed, near, forces| {
             let force = forces.vector(&near.surface);
             power.drive += force.dot(near.surface.velocity - near.motion.prescribed);
             power.contact += placed.lost(near, forces);
@@ -315,6 +337,12 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             stiff && !self.inner.is_local(placed.contact.point)
         });
         if full { Structure::dense(structure.order()) } else { structure }
+    }
+
+    fn contacts_are_local(&self) -> bool {
+        let rigid = |placed: &&Placed| matches!(placed.contact.law, Law::Constraint { .. });
+        self.rows == self.inner.rows().iter().filter(|set| **set == Set::Free).count()
+            && self.contacts.iter().filter(rigid).all(|placed| self.inner.is_local(placed.contact.point))
     }
 
     fn scales(&self) -> &[f64] {
@@ -374,7 +402,10 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
     fn residual(&mut self, s: &State, r: &mut [f64]) {
         self.inner.residual(s, r);
         for placed in &self.contacts {
-            let near = placed.proximity(&mut self.inner, s);
+            if placed.is_open(s) {
+                continue;
+            }
+            let Some(near) = placed.acting(&mut self.inner, s) else { continue };
             let forces = placed.forces(&near, s, self.memory);
             if forces.vanish() {
                 continue;
@@ -437,7 +468,10 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             return;
         }
         for placed in &self.contacts {
-            let near = placed.proximity(&mut self.inner, s);
+            if placed.is_open(s) {
+                continue;
+            }
+            let Some(near) = placed.acting(&mut self.inner, s) else { continue };
             let forces = placed.forces(&near, s, self.memory);
             if forces.vanish() {
                 continue;

@@ -35,6 +35,17 @@ impl Proximity {
         Proximity { motion, surface, velocity, station, rate, touching, sliding }
     }
 
+    /// Whether point `k` is known not to touch, at less cost than that of its motion.
+    pub fn is_away(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> bool {
+        if model.station(k).is_some() {
+            // It would have to be found for that.
+            return false;
+        }
+        model.approach(k, s, obstacle);
+        let placed = model.position(k, s);
+        placed.is_some_and(|(position, radius)| obstacle.surface(position, s.time()).gap > radius)
+    }
+
     /// g̈
     pub fn acceleration(&self) -> f64 {
         let (path, acceleration) = self.path();

@@ -70,6 +70,7 @@ impl Coupled {
             let weights = Weights { a: 1.0, v: to_v, q: to_q, increment: Some(&self.d) };
             system.tangent(to, weights, &mut work.matrix);
             work.rows.add_border(system, to, n, &mut work.matrix);
+            work.impulses.keep(&work.matrix);
             work.matrix.factor().map_err(|cause| failure::singular(system, t, h, cause))?;
             work.matrix.solve(&mut work.rhs);
             work.rows.store_jacobian(system, to);
@@ -83,6 +84,7 @@ impl Coupled {
                 let increment = Some(&self.d[..]);
                 system.tangent(to, Weights { a: 1.0, v: 0.0, q: 0.0, increment }, &mut self.mass);
                 work.rows.add_border(system, to, n, &mut self.mass);
+                work.impulses.keep(&self.mass);
                 self.mass.factor().map_err(|cause| failure::singular(system, t, h, cause))?;
                 counters.factorizations += 1;
                 // Δα with G Δα from G Δq̈ = −ġ(q, ṽ)/(hγκ).

@@ -87,6 +87,7 @@ impl Work {
             let weights = Weights { a: 1.0, v: to_v, q: to_q, increment: Some(&self.increment) };
             system.tangent(&self.trial, weights, &mut self.matrix);
             self.rows.add_border(system, to, n, &mut self.matrix);
+            self.impulses.keep(&self.matrix);
             self.matrix.factor().map_err(|e| failure::singular(system, self.from.t, h, e))?;
             self.matrix.solve(&mut self.rhs);
             self.rows.store_jacobian(system, to);

@@ -155,7 +155,7 @@ impl Work {
             corrected: false,
             matrix: Matrix::new(&system.structure(1)),
             rows: Rows::new(system, &state()),
-            impulses: Impulses::new(m, n + m),
+            impulses: Impulses::new(system, n + m),
             from: state(),
             smooth: state(),
             trial: state(),

@@ -1,4 +1,4 @@
-//! The point of a beam that is nearest to an obstacle.
+//! A point on the axis of a beam: at a station, or the one that is nearest to an obstacle.
 //!
 //! With the signed distance g(r) of the obstacle, whose gradient is n,
 //!
@@ -11,21 +11,24 @@
 //! to state: the point depends on the configuration alone.
 
 use super::beam::Beam;
+use super::contact_point::Along;
 use crate::contact::Obstacle;
 use crate::linalg::Vec3;
 
 /// Most iterations: bisection of half an element down to rounding.
 const ITERATIONS: usize = 60;
 
-/// The point of a beam that is nearest to an obstacle.
+/// A point on the axis of a beam.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Nearest {
+pub(super) struct OnAxis {
     /// Element, and place in it from 0 to 1.
     pub element: usize,
     pub place: f64,
-    /// Whether it is between the ends of the beam.
+    /// Whether it is the nearest point, and between the ends of the beam.
     pub inside: bool,
-    /// The nodes and the middles of elements.
+    /// N, N′ and N″ there.
+    shapes: [[f64; 4]; 3],
+    /// The nodes and the middles of elements, of a point that is sought.
     samples: Vec<Vec3>,
 }
 
@@ -34,14 +37,30 @@ fn curve(beam: &Beam, q: &[f64], element: usize, z: f64) -> [Vec3; 3] {
     beam.shapes(element, z).map(|n| beam.on_axis(&n, q, element))
 }
 
-impl Nearest {
-    /// With memory for the samples of a beam.
-    pub fn of(beam: &Beam) -> Nearest {
-        Nearest { samples: vec![Vec3::ZERO; 2 * beam.elements() + 1], ..Nearest::default() }
+impl OnAxis {
+    /// Of a beam, with memory for its samples where the point is to be sought.
+    pub fn new(beam: &Beam, along: Along) -> OnAxis {
+        match along {
+            Along::Nearest => {
+                OnAxis { samples: vec![Vec3::ZERO; 2 * beam.elements() + 1], ..OnAxis::default() }
+            }
+            Along::Station(s) => {
+                let (element, place) = beam.element(s);
+                OnAxis { element, place, shapes: beam.shapes(element, place), ..OnAxis::default() }
+            }
+        }
     }
 
-    /// Finds the point of `beam` with the coordinates `q`.
+    /// Whether it is the point nearest to the obstacle.
+    pub fn is_sought(&self) -> bool {
+        !self.samples.is_empty()
+    }
+
+    /// Finds the point of `beam` with the coordinates `q`, if it is to be sought.
     pub fn find(&mut self, beam: &Beam, q: &[f64], obstacle: &dyn Obstacle, t: f64) {
+        if !self.is_sought() {
+            return;
+        }
         let count = beam.elements();
         for (j, sample) in self.samples.iter_mut().enumerate() {
             let element = (j / 2).min(count - 1);
@@ -68,11 +87,12 @@ impl Nearest {
             }
             at = next;
         }
+        self.shapes = beam.shapes(self.element, self.place);
     }
 
     /// Hands the numbers of the velocities of the four vectors in those of the beam to `visit`, each with N, N′ and its direction.
     pub fn unknowns(&self, beam: &Beam, mut visit: impl FnMut(usize, Vec3, Vec3)) {
-        let [value, slope, _] = beam.shapes(self.element, self.place);
+        let [value, slope, _] = self.shapes;
         for (i, [_, first]) in beam.supports(self.element).into_iter().enumerate() {
             for (k, axis) in Vec3::AXES.into_iter().enumerate() {
                 visit(first + k, value[i] * axis, slope[i] * axis);
@@ -80,14 +100,19 @@ impl Nearest {
         }
     }
 
+    /// r there.
+    pub fn position(&self, beam: &Beam, q: &[f64]) -> Vec3 {
+        beam.on_axis(&self.shapes[0], q, self.element)
+    }
+
     /// r, r′, r″ there by the coordinates of the beam.
     pub fn shape(&self, beam: &Beam, q: &[f64]) -> [Vec3; 3] {
-        curve(beam, q, self.element, self.place)
+        self.shapes.map(|n| beam.on_axis(&n, q, self.element))
     }
 
     /// The rates of r and r′ by those of the coordinates.
     pub fn rates(&self, beam: &Beam, v: &[f64]) -> [Vec3; 2] {
-        let [value, slope, _] = beam.shapes(self.element, self.place);
+        let [value, slope, _] = self.shapes;
         [value, slope].map(|n| beam.rate_on_axis(&n, v, self.element))
     }
 

@@ -1,0 +1,78 @@
+//! Contacts by the hundred: beams that lie down on a floor.
+
+use super::verification::run::integrate;
+use flexion_case::{Reading, parse};
+use std::path::Path;
+
+/// A rod that falls flat.
+const ROD: &str = "
+gravity = [0, 0, -9.81]
+run = { duration = 0.075 }
+output = { step = '1 ms' }
+[[beam]]
+name = 'rod'
+start = [0, 0, '2 cm']
+length = 1
+elements = 20
+section = { kind = 'circle', modulus = '2 GPa', density = 1200, radius = '5 mm' }
+[[contact]]
+name = 'floor'
+on = 'rod'
+points = 100
+obstacle = { kind = 'plane', normal = [0, 0, 1] }
+law = { kind = 'constraint', restitution = 0, friction = 0.3 }
+[integrator]
+kind = 'nonsmooth-generalized-alpha'
+step = '0.2 ms'
+";
+
+/// An arm on a hinge 1 mm above a floor, which it meets at ten points.
+const ARM: &str = "
+gravity = [0, -9.81]
+run = { duration = 2 }
+output = { step = '5 ms' }
+beam = { length = 1 }
+damping = { stiffness = '0.2 ms' }
+section = { kind = 'circle', modulus = '2 GPa', density = 1200, radius = '5 mm' }
+hub = { motion = { kind = 'free', angle = '2 deg' } }
+model = { coupling = 'exact' }
+basis = { kind = 'finite-elements', elements = 20 }
+integrator = { kind = 'radau', tolerance = 1e-4 }
+[[contact]]
+name = 'floor'
+on = 'beam'
+points = 10
+obstacle = { kind = 'plane', point = [0, '-1 mm'] }
+law = { kind = 'constraint', restitution = 0 }
+";
+
+fn read(text: &str) -> Reading {
+    parse(text.to_owned(), Path::new("case.toml"), &[]).unwrap()
+}
+
+/// 20 elements have 8 velocities a node but for the last middle, whatever touches.
+#[test]
+fn a_beam_needs_no_nodes_where_points_touch() {
+    let reading = read(ROD);
+    assert_eq!(reading.case.system().unwrap().size().v, 8 * 21 - 1);
+    // But friction on a radius asks for the rotation of a section.
+    let rolls = ROD.replace("on = 'rod'", "on = 'rod'\nradius = '5 mm'");
+    let reading = read(&rolls);
+    assert_eq!(reading.case.system().unwrap().size().v, 8 * 101 - 1);
+}
+
+/// At rest it lies on what carries a beam of EI and the weight w per length whose root is h above its supports: it is free for (24 EI h/w)^¼ = 0.3995 m, and the
+/// root has half of the weight of that. On supports 0.1 m apart the equations of three moments give what each carries.
+#[test]
+fn an_arm_that_lies_down_comes_to_rest_on_the_floor() {
+    let run = integrate(&read(ARM)).unwrap();
+    assert_eq!(run.failure, None);
+    assert!(run.warnings.iter().any(|warning| warning.contains("contacts chatter")), "{:?}", run.warnings);
+    let carried = [0.0, 0.0, 0.0, 0.2245, 0.1016, 0.0898, 0.094, 0.089, 0.1049, 0.0365];
+    for (k, carried) in carried.into_iter().enumerate() {
+        let force = run.column(&format!("floor.{}.force", k + 1)).last().copied().unwrap();
+        assert!((force - carried).abs() < 1e-4, "{}: {force} {carried}", k + 1);
+    }
+    let speed = run.column("tip.deflection_velocity").last().copied().unwrap();
+    assert!(speed.abs() < 1e-6, "{speed}");
+}

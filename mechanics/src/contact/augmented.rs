@@ -1,0 +1,449 @@
+//! The cone problem of many rows: Newton's method for the motion that their multipliers make.
+//!
+//! Of many rows, W = G A⁻¹ Gᵀ is dense, and singular where they are more than the motions that they hold. It is not formed here. With
+//! the matrix A of a step, the multipliers Λ₀ from which it starts, and what u = b is before they change,
+//!
+//! ```text
+//! A y = Gᵀ (Λ − Λ₀),   u = b + G y,   Λ = Π(Λ̂ − ρ u)
+//! F(y) = A y − Gᵀ (Π(Λ̂ − ρ u) − Λ₀) = 0,   (A + Gᵀ Π′ ρ G) δ = −F
+//! ```
+//!
+//! with the projection Π on the sets of all rows, discs of friction with the radius that Λₙ has. GᵀG has room in the band of A, so that an iteration costs a
+//! factorisation of A and O(1) for each row. While Λ̂ is not Λ, u of a contact that presses is −(Λ − Λ̂)/ρ and not zero: Λ̂ is replaced by Λ
+//! (the proximal point, or multiplier, method) until it is. That converges at the rate 1/(ρW), and where W is singular what is added to
+//! Λ̂ has no part that moves nothing: from Λ₀ = 0, of all Λ that make the same motion, the one of least norm is found.
+//!
+//! ρ is a multiple of the least Aⱼⱼ/Gᵢⱼ² of a row, which is at least 1/Wᵢᵢ. The result is judged by the residual |Λ − Π(Λ − u/Wᵢᵢ)| of the motion that A itself gives.
+//! Without friction F is the gradient of a convex function; with Coulomb's it is not, and there may be no solution, or several: where the iteration does not settle
+//! with one ρ a softer one is tried.
+//!
+//! Sources: Alart & Curnier (1991, doi 10.1016/0045-7825(91)90022-X); Rockafellar (1976, doi 10.1287/moor.1.2.97) for the proximal point method.
+
+use super::cone::{RowLaw, Unresolved};
+use crate::linalg::Matrix;
+
+/// ρ of a row in units of its stiffness, one attempt after the other.
+const STIFFNESSES: [f64; 3] = [30.0, 1.0, 1e3];
+/// Iterations of an attempt.
+const ITERATIONS: usize = 80;
+/// Residual, over the largest multiplier, at which the iteration ends.
+const SETTLED: f64 = 1e-12;
+/// Residual that must be reached where it falls no further, or at the last iteration.
+const TOLERABLE: f64 = 1e-8;
+/// Part of the residual of a proximal step that may be left by the next while it still falls.
+const FALLING: f64 = 0.5;
+
+/// A contact: its normal row, and those of its friction.
+#[derive(Clone, Copy, Debug)]
+struct Group {
+    normal: usize,
+    friction: [usize; 2],
+    /// Rows of friction.
+    count: usize,
+}
+
+/// What a contact does at the argument of its projection.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    Open,
+    Closed,
+    Sticks,
+    /// It slips with these multipliers over μΛₙ, and with this part |μΛₙ|/|z| of what it would take to stick.
+    Slips([f64; 2], f64),
+    /// It slips as given, Λ = −s Λₙ.
+    Given([f64; 2]),
+}
+
+/// Memory for problems of many rows.
+#[derive(Debug, Default)]
+pub struct Augmented {
+    groups: Vec<Group>,
+    laws: Vec<RowLaw>,
+    /// Entries of G that are not zero, row after row, and where each row begins.
+    entries: Vec<(usize, f64)>,
+    begins: Vec<usize>,
+    /// The least Aⱼⱼ/Gᵢⱼ² of the normal row of each contact, and the larger of those of its friction.
+    stiffness: Vec<[f64; 2]>,
+    states: Vec<State>,
+    before: Vec<State>,
+    rates: Vec<f64>,
+    centre: Vec<f64>,
+    start: Vec<f64>,
+    force: Vec<f64>,
+    image: Vec<f64>,
+    plain: Option<Matrix>,
+    work: Option<Matrix>,
+    /// Newton's iterations, and the residual over the largest multiplier, of the problem solved last.
+    pub iterations: usize,
+    /// See [`Augmented::iterations`].
+    pub residual: f64,
+}
+
+impl Augmented {
+    /// Keeps A before it is factored.
+    pub fn keep(&mut self, matrix: &Matrix) {
+        match &mut self.plain {
+            Some(plain) => plain.copy_from(matrix),
+            None => self.plain = Some(matrix.clone()),
+        }
+    }
+
+    /// Whether problems with these laws are solved: every row is one of a contact.
+    pub fn solves(laws: &[RowLaw]) -> bool {
+        laws.iter().all(|law| *law != RowLaw::Free)
+    }
+
+    /// Begins a problem of rows with the given laws: each is then shown by [`Augmented::push`].
+    pub fn begin(&mut self, laws: &[RowLaw]) {
+        self.laws.clear();
+        self.laws.extend_from_slice(laws);
+        self.groups.clear();
+        let mut of_normal = vec![usize::MAX; laws.len()];
+        for (i, law) in laws.iter().enumerate() {
+            match *law {
+                RowLaw::Free | RowLaw::Unilateral => {
+                    of_normal[i] = self.groups.len();
+                    self.groups.push(Group { normal: i, friction: [0; 2], count: 0 });
+                }
+                RowLaw::Friction { normal, .. } | RowLaw::Slip { normal, .. } => {
+                    if let Some(group) = self.groups.get_mut(of_normal[normal])
+                        && group.count < 2
+                    {
+                        group.friction[group.count] = i;
+                        group.count += 1;
+                    }
+                }
+            }
+        }
+        self.entries.clear();
+        self.begins.clear();
+        self.begins.push(0);
+    }
+
+    /// The next row of G.
+    pub fn push(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
+        self.entries.extend(entries.filter(|(_, x)| *x != 0.0));
+        self.begins.push(self.entries.len());
+    }
+
+    fn row(&self, i: usize) -> &[(usize, f64)] {
+        &self.entries[self.begins[i]..self.begins[i + 1]]
+    }
+
+    /// Solves for Λ, from Λ₀ in `lambda`, with u = b of Λ₀, and adds y to `x`; `factored` is the matrix that was kept, with its factors.
+    ///
+    /// # Errors
+    /// [`Unresolved`], with the residual that is left.
+    pub fn solve(
+        &mut self,
+        factored: &mut Matrix,
+        b: &[f64],
+        lambda: &mut [f64],
+        x: &mut [f64],
+    ) -> Result<(), Unresolved> {
+        let order = factored.order();
+        for list in [&mut self.force, &mut self.image] {
+            list.clear();
+            list.resize(order, 0.0);
+        }
+        self.start.clear();
+        self.start.extend_from_slice(lambda);
+        self.rates.clear();
+        self.rates.extend_from_slice(b);
+        self.measure();
+        (self.iterations, self.residual) = (0, f64::INFINITY);
+        let mut y = vec![0.0; order];
+        for ratio in STIFFNESSES {
+            if self.attempt(factored, b, lambda, &mut y, ratio) {
+                x.iter_mut().zip(&y).for_each(|(x, y)| *x += y);
+                return Ok(());
+            }
+        }
+        lambda.copy_from_slice(&self.start);
+        Err(Unresolved { rows: self.laws.len(), sweeps: self.iterations, change: self.residual })
+    }
+
+    /// The stiffness of every contact.
+    fn measure(&mut self) {
+        let Augmented { groups, entries, begins, stiffness, plain, .. } = self;
+        let Some(plain) = plain else { return };
+        stiffness.clear();
+        stiffness.extend(groups.iter().map(|group| {
+            let of_row = |i: usize| {
+                let least = entries[begins[i]..begins[i + 1]].iter();
+                let least =
+                    least.map(|(j, g)| plain.get(*j, *j).abs() / (g * g)).fold(f64::INFINITY, f64::min);
+                if least.is_finite() && least > 0.0 { least } else { 1.0 }
+            };
+            let friction = group.friction[..group.count].iter().map(|i| of_row(*i));
+            [of_row(group.normal), friction.fold(0.0, f64::max)]
+        }));
+    }
+
+    /// One attempt; whether it settled.
+    fn attempt(
+        &mut self,
+        factored: &mut Matrix,
+        b: &[f64],
+        lambda: &mut [f64],
+        y: &mut [f64],
+        ratio: f64,
+    ) -> bool {
+        y.fill(0.0);
+        self.centre.clear();
+        self.centre.extend_from_slice(&self.start);
+        self.before.clear();
+        let mut last = f64::INFINITY;
+        for _ in 0..ITERATIONS {
+            self.iterations += 1;
+            self.rates_of(b, y);
+            self.project(ratio, lambda);
+            if self.has_settled() {
+                self.move_by(factored, b, lambda, y);
+                let falls = self.residual < FALLING * last;
+                if self.residual <= SETTLED || (!falls && self.residual <= TOLERABLE) {
+                    return true;
+                }
+                last = self.residual;
+                self.centre.copy_from_slice(lambda);
+                self.project(ratio, lambda);
+            }
+            std::mem::swap(&mut self.states, &mut self.before);
+            if !self.improve(lambda, y, ratio) {
+                return false;
+            }
+        }
+        // Directions of slip that settle slowly.
+        self.move_by(factored, b, lambda, y);
+        self.residual <= TOLERABLE
+    }
+
+    /// The motion y that multipliers make, and the residual of both.
+    fn move_by(&mut self, factored: &mut Matrix, b: &[f64], lambda: &[f64], y: &mut [f64]) {
+        self.put_force(lambda);
+        y.copy_from_slice(&self.force);
+        factored.solve(y);
+        self.rates_of(b, y);
+        self.residual = self.judge(lambda);
+    }
+
+    /// u = b + G y
+    fn rates_of(&mut self, b: &[f64], y: &[f64]) {
+        for i in 0..self.laws.len() {
+            let change: f64 = self.row(i).iter().map(|(j, g)| g * y[*j]).sum();
+            self.rates[i] = b[i] + change;
+        }
+    }
+
+    /// Λ = Π(Λ̂ − ρ u), and what every contact does.
+    fn project(&mut self, ratio: f64, lambda: &mut [f64]) {
+        self.states.clear();
+        for (k, (group, stiffness)) in self.groups.iter().zip(&self.stiffness).enumerate() {
+            let rho = |i: usize| ratio * stiffness[usize::from(i != group.normal)];
+            let z = |i: usize| self.centre[i] - rho(i) * self.rates[i];
+            let mut state = projected(group, &self.laws, z, lambda);
+            if let (State::Slips([a, b], _), Some(State::Slips([c, d], _))) = (state, self.before.get(k))
+                && a * c + b * d < 0.0
+            {
+                // Between two directions against each other it sticks: the next step is that of one that does.
+                group.friction[..group.count].iter().for_each(|i| lambda[*i] = z(*i));
+                state = State::Sticks;
+            }
+            self.states.push(state);
+        }
+    }
+
+    /// Whether contacts stick, slip and are open as in the iteration before, and the directions in which they slip have settled.
+    fn has_settled(&self) -> bool {
+        self.states.len() == self.before.len()
+            && self.states.iter().zip(&self.before).all(|(now, before)| match (now, before) {
+                (State::Slips(a, _), State::Slips(b, _)) => (a[0] - b[0]).abs() + (a[1] - b[1]).abs() <= 1e-6,
+                (now, before) => now == before,
+            })
+    }
+
+    /// Gᵀ (Λ − Λ₀) into `force`.
+    fn put_force(&mut self, lambda: &[f64]) {
+        self.force.fill(0.0);
+        for i in 0..self.laws.len() {
+            let change = lambda[i] - self.start[i];
+            if change != 0.0 {
+                for (j, g) in &self.entries[self.begins[i]..self.begins[i + 1]] {
+                    self.force[*j] += g * change;
+                }
+            }
+        }
+    }
+
+    /// Largest |Λ − Π(Λ − s u)| over the largest multiplier.
+    fn judge(&mut self, lambda: &[f64]) -> f64 {
+        let mut projection = self.start.clone();
+        let (mut largest, mut worst) = (f64::MIN_POSITIVE, 0.0_f64);
+        for (group, stiffness) in self.groups.iter().zip(&self.stiffness) {
+            let z = |i: usize| lambda[i] - stiffness[usize::from(i != group.normal)] * self.rates[i];
+            projected(group, &self.laws, z, &mut projection);
+            for i in std::iter::once(group.normal).chain(group.friction[..group.count].iter().copied()) {
+                largest = largest.max(lambda[i].abs());
+                let off = (lambda[i] - projection[i]).abs();
+                worst = if off.is_nan() { f64::INFINITY } else { worst.max(off) };
+            }
+        }
+        if worst == 0.0 { 0.0 } else { worst / largest }
+    }
+
+    /// One step of Newton's method from y; `false` where its matrix is singular.
+    fn improve(&mut self, lambda: &[f64], y: &mut [f64], ratio: f64) -> bool {
+        self.put_force(lambda);
+        let Some(plain) = &self.plain else { return false };
+        plain.multiply(y, &mut self.image);
+        let mut work = match self.work.take() {
+            Some(mut work) => {
+                work.copy_from(plain);
+                work
+            }
+            None => plain.clone(),
+        };
+        // The states were swapped into those before.
+        for ((group, stiffness), state) in self.groups.iter().zip(&self.stiffness).zip(&self.before) {
+            let mut add = |of: usize, by: usize, x: f64| {
+                let (rows, columns) = (self.row(of), self.row(by));
+                let rho = ratio * stiffness[usize::from(by != group.normal)];
+                for (i, g) in rows {
+                    columns.iter().for_each(|(j, h)| work.add(*i, *j, rho * x * g * h));
+                }
+            };
+            let friction = &group.friction[..group.count];
+            if *state != State::Open {
+                add(group.normal, group.normal, 1.0);
+            }
+            match *state {
+                State::Open | State::Closed => {}
+                State::Sticks => friction.iter().for_each(|i| add(*i, *i, 1.0)),
+                State::Given(slopes) => {
+                    friction.iter().zip(slopes).for_each(|(i, slope)| add(*i, group.normal, -slope));
+                }
+                State::Slips(along, turning) => {
+                    let RowLaw::Friction { coefficient, .. } = self.laws[friction[0]] else { continue };
+                    for (a, &i) in friction.iter().enumerate() {
+                        add(i, group.normal, coefficient * along[a]);
+                        for (c, &j) in friction.iter().enumerate() {
+                            let unit = f64::from(u8::from(a == c)) - along[a] * along[c];
+                            if unit != 0.0 && turning > 0.0 {
+                                add(i, j, turning * unit);
+                            }
+                        }
+                    }
+                }
+            }
+        }
+        let factored = work.factor();
+        let ok = factored.is_ok();
+        if ok {
+            for (f, image) in self.force.iter_mut().zip(&self.image) {
+                *f -= image;
+            }
+            work.solve(&mut self.force);
+            y.iter_mut().zip(&self.force).for_each(|(y, d)| *y += d);
+        }
+        self.work = Some(work);
+        ok && y.iter().all(|y| y.is_finite())
+    }
+}
+
+/// The projection of the argument z of a contact into `lambda`.
+fn projected(group: &Group, laws: &[RowLaw], z: impl Fn(usize) -> f64, lambda: &mut [f64]) -> State {
+    let friction = &group.friction[..group.count];
+    let normal = z(group.normal);
+    // NaN is not open.
+    if normal <= 0.0 && laws[group.normal] != RowLaw::Free {
+        lambda[group.normal] = 0.0;
+        friction.iter().for_each(|i| lambda[*i] = 0.0);
+        return State::Open;
+    }
+    lambda[group.normal] = normal;
+    let mut values = [0.0; 2];
+    let Some(first) = friction.first() else { return State::Closed };
+    let coefficient = match laws[*first] {
+        RowLaw::Friction { coefficient, .. } => coefficient,
+        RowLaw::Slip { .. } => {
+            for (i, value) in friction.iter().zip(&mut values) {
+                if let RowLaw::Slip { slope, .. } = laws[*i] {
+                    (*value, lambda[*i]) = (slope, -slope * normal);
+                }
+            }
+            return State::Given(values);
+        }
+        _ => return State::Closed,
+    };
+    friction.iter().zip(&mut values).for_each(|(i, value)| *value = z(*i));
+    let (size, radius) = (libm::hypot(values[0], values[1]), coefficient * normal);
+    if size <= radius {
+        friction.iter().zip(values).for_each(|(i, value)| lambda[*i] = value);
+        return State::Sticks;
+    }
+    let along = values.map(|x| x / size);
+    friction.iter().zip(along).for_each(|(i, along)| lambda[*i] = radius * along);
+    State::Slips(along, radius / size)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::Structure;
+
+    /// The body of a box (m, I₁, I₂) with a point at each of these places below it, pressed by its weight 1 and a push of 0.1 along y.
+    fn solved(places: &[[f64; 2]], friction: f64) -> (Vec<f64>, Augmented) {
+        // v_x, v_y, v_z, ω_x, ω_y
+        let mut matrix = Matrix::new(&Structure::dense(5));
+        [2.0, 2.0, 2.0, 0.3, 0.5].iter().enumerate().for_each(|(i, x)| matrix.add(i, i, *x));
+        let n = places.len();
+        let mut laws = vec![RowLaw::Unilateral; n];
+        for k in 0..n {
+            laws.extend([RowLaw::Friction { coefficient: friction, normal: k }; 2]);
+        }
+        let free = [0.0, 0.05, -0.5, 0.0, 0.0];
+        let mut many = Augmented::default();
+        many.begin(&laws);
+        let rows: Vec<[f64; 5]> = places
+            .iter()
+            .map(|[x, y]| [0.0, 0.0, 1.0, *y, -x])
+            .chain(places.iter().flat_map(|_| [[1.0, 0.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0, 0.0]]))
+            .collect();
+        let along = |row: &[f64; 5]| row.iter().zip(free).map(|(g, x)| g * x).sum::<f64>();
+        let b: Vec<f64> = rows.iter().map(along).collect();
+        rows.iter().for_each(|row| many.push(row.iter().copied().enumerate()));
+        many.keep(&matrix);
+        matrix.factor().unwrap();
+        let (mut lambda, mut x) = (vec![0.0; 3 * n], vec![0.0; 5]);
+        many.solve(&mut matrix, &b, &mut lambda, &mut x).unwrap();
+        (lambda, many)
+    }
+
+    /// On more than three points the forces of the least norm are linear in the place, and so equal on the four corners of a box.
+    #[test]
+    fn of_redundant_contacts_the_forces_of_least_norm_are_found() {
+        let corners = [[1.0, 0.5], [-1.0, 0.5], [-1.0, -0.5], [1.0, -0.5]];
+        let (forces, many) = solved(&corners, 0.6);
+        for k in 0..4 {
+            assert!((forces[k] - 0.25).abs() < 1e-11, "{forces:?}");
+            // The push is held by all alike.
+            assert!((forces[4 + 2 * k + 1] + 0.025).abs() < 1e-11, "{forces:?}");
+        }
+        assert!(many.residual < 1e-11 && many.iterations < 20, "{} {}", many.residual, many.iterations);
+        // Of points to one side of the centre, that farthest away opens, and the others carry the weight where its moment is zero.
+        let (forces, _) = solved(&[[1.0, 0.0], [0.5, 0.3], [0.5, -0.3], [-0.1, 0.2], [-0.1, -0.2]], 0.6);
+        let moment: f64 = forces[..5].iter().zip([1.0, 0.5, 0.5, -0.1, -0.1]).map(|(f, x)| f * x).sum();
+        let weight: f64 = forces[..5].iter().sum();
+        assert!((weight - 1.0).abs() < 1e-11 && moment.abs() < 1e-11, "{forces:?}");
+        assert!(forces.iter().take(5).all(|f| *f >= 0.0));
+    }
+
+    #[test]
+    fn contacts_slip_on_the_rim_of_the_disc() {
+        let (forces, _) = solved(&[[1.0, 0.5], [-1.0, 0.5], [-1.0, -0.5], [1.0, -0.5]], 0.06);
+        for k in 0..4 {
+            let [x, y] = [forces[4 + 2 * k], forces[4 + 2 * k + 1]];
+            assert!(x.abs() < 1e-11 && (y + 0.06 * 0.25).abs() < 1e-11, "{forces:?}");
+        }
+    }
+}
