@@ -134,7 +134,7 @@ pub(super) fn relative(shape: &Shape<'_>) -> Vec<Relative> {
     let one = |(frame, x): (&Frame, &f64)| {
         let displacement = frame.position - (root.position + (x - first) * tangent);
         let section = frame.rotation.column(0);
-        let angle = f64::atan2(section.dot(normal), section.dot(tangent));
+        let angle = libm::atan2(section.dot(normal), section.dot(tangent));
         // Followed from the root, so that it may pass π.
         let whole = std::f64::consts::TAU;
         turned = angle + whole * ((turned - angle) / whole).round();
