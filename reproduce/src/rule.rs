@@ -210,7 +210,7 @@ mod tests {
         let valued =
             |value| crate::answer::Valued { value, error: Some(3e-4), unit: "m".to_owned(), varies: false };
         let of = |value: f64| {
-            let mut answer = Answer::default();
+            let mut answer = Answer { status: "finished".to_owned(), ..Answer::default() };
             answer.values.insert("x".to_owned(), Ok(valued(value)));
             answer
         };

@@ -144,8 +144,8 @@ impl Reading {
         self.prepare_watched(&mut |_| ControlFlow::Continue(()))
     }
 
-    /// As [`Reading::prepare`]; `watch` is shown the load factors of the path on which a stable equilibrium is looked for, and ends the
-    /// search by `Break`.
+    /// As [`Reading::prepare`]; `watch` is shown the load factors at which an equilibrium is looked for, at first the levels of the whole loads
+    /// and then the path to a stable one, and ends the search by `Break`.
     ///
     /// # Errors
     /// As [`Reading::prepare`], and where the search was ended.
