@@ -1,5 +1,7 @@
 //! Contacts by the hundred: beams that lie down on a floor.
 
+#![allow(clippy::unwrap_used)] // in helpers of tests
+
 use super::verification::run::integrate;
 use flexion_case::{Reading, parse};
 use std::path::Path;
