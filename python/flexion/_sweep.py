@@ -304,6 +304,9 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
                         submit(part, tries + 1)
             if bar(done / made.parts, f"{done} of {made.parts} parts"):
                 return
+            # Dask leaves futures of a client that has lost its scheduler without an end.
+            if getattr(client, "status", None) in ("closing", "closed"):
+                return
     finally:
         for future in waiting:
             # Of a client whose scheduler is gone nothing can be taken back.

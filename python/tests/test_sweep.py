@@ -253,6 +253,23 @@ def test_tasks_that_are_lost_are_done_again(arm: flexion.Case, whole: flexion.Sw
         assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, client=pool, part=2))
 
 
+class Closed(ThreadPoolExecutor):
+    """A client that has closed, and whose futures have no end."""
+
+    status = "closed"
+
+    def get_executor(self, pure: bool) -> Closed:
+        return self
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        return Future()
+
+
+def test_futures_without_an_end_of_a_client_that_has_closed_are_not_waited_for(arm: flexion.Case, whole: flexion.Sweep) -> None:
+    with Closed(1) as client:
+        assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, client=client, part=2))
+
+
 def test_workers_without_the_folder_send_their_parts(arm: flexion.Case, whole: flexion.Sweep, tmp_path: Path) -> None:
     from flexion import _sweep
 
