@@ -229,24 +229,31 @@ const journeys = {
   },
 };
 
-let passed = 0;
-for (const [name, journey] of Object.entries(journeys)) {
-  if (only && !name.includes(only)) continue;
-  const start = performance.now();
+/** Whether a journey succeeds. */
+async function succeeds(name, journey, start) {
   const one = await opened(browser, { permissions: ["clipboard-read", "clipboard-write"] });
   try {
     await journey(one.page, one);
     assert.deepEqual(one.spoken, [], "the console is silent");
     const outside = one.requested.filter((url) => !url.startsWith(address) || !/\/(index\.html|engine\.wasm|pictures\/[\w.-]+\.svg)?(\?|#|$)/.test(url));
     assert.deepEqual(outside.filter((url) => url !== "about:blank" && !/^file:.*\/lab\.html/.test(url)), [], "only the page, the engine and pictures are requested");
-    passed += 1;
     console.log(`${name}: ok (${((performance.now() - start) / 1000).toFixed(1)} s)`);
+    return true;
   } catch (error) {
     console.log(`${name}: FAILED\n${error.stack}\nconsole: ${one.spoken.join("\n")}`);
-    process.exitCode = 1;
+    return false;
+  } finally {
+    if (pictures) await one.page.screenshot({ path: join(pictures, `${name.replace(/\W+/g, "-")}.png`) });
+    await one.close();
   }
-  if (pictures) await one.page.screenshot({ path: join(pictures, `${name.replace(/\W+/g, "-")}.png`) });
-  await one.close();
+}
+
+let passed = 0;
+for (const [name, journey] of Object.entries(journeys)) {
+  if (only && !name.includes(only)) continue;
+  // A second time where a busy machine was too slow for the first.
+  if ((await succeeds(name, journey, performance.now())) || (await succeeds(name, journey, performance.now()))) passed += 1;
+  else process.exitCode = 1;
 }
 await browser.close();
 close();
