@@ -79,8 +79,8 @@ async function opened({ name, width, height, colorScheme }) {
   const link = page.locator("article td a").first();
   if (await link.count()) {
     await link.click();
-    const target = await page.evaluate(() => document.getElementById(decodeURIComponent(location.hash.slice(1))).open);
-    assert.ok(target, "the run is unfolded");
+    // Unfolded once the page has heard of its new place.
+    await page.waitForFunction(() => document.getElementById(decodeURIComponent(location.hash.slice(1)))?.open, null, { timeout: 20000 });
   }
   const head = page.locator("#claims th button").first();
   await head.click();
