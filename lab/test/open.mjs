@@ -26,6 +26,13 @@ export function launch(executablePath) {
   return chromium.launch({ executablePath, args });
 }
 
+/** The screens on which pages are looked at. */
+export const screens = [
+  { name: "desk", viewport: { width: 1280, height: 800 }, colorScheme: "light" },
+  { name: "dark", viewport: { width: 1280, height: 800 }, colorScheme: "dark" },
+  { name: "telephone", viewport: { width: 390, height: 844 }, colorScheme: "light" },
+];
+
 /** A page that keeps what the console says and what is requested. */
 export async function opened(browser, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });

@@ -4,37 +4,27 @@
 //     node test/page.mjs CHROMIUM PAGE… [--pictures DIR]
 import assert from "node:assert/strict";
 import { basename, join, resolve } from "node:path";
-import { chromium } from "playwright-core";
+import { launch, opened, screens } from "./open.mjs";
 
 const marked = process.argv.indexOf("--pictures");
 const pictures = marked > 0 ? process.argv.splice(marked, 2)[1] : undefined;
 const [executablePath, ...pages] = process.argv.slice(2);
 assert.ok(pages.length > 0, "usage: node test/page.mjs CHROMIUM PAGE… [--pictures DIR]");
 
-const args = ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
-const browser = await chromium.launch({ executablePath, args });
-const screens = [
-  { name: "desk", width: 1280, height: 800, colorScheme: "light" },
-  { name: "dark", width: 1280, height: 800, colorScheme: "dark" },
-  { name: "telephone", width: 390, height: 844, colorScheme: "light" },
-];
+const browser = await launch(executablePath);
 
 for (const page of pages) {
   for (const screen of screens) {
-    await opened(page, screen);
-    console.log(`${basename(page)} at ${screen.width} px, ${screen.colorScheme}: ok`);
+    await look(page, screen);
+    console.log(`${basename(page)} at ${screen.viewport.width} px, ${screen.colorScheme}: ok`);
   }
 }
 await browser.close();
 console.log(`${pages.length * screens.length} passed, 0 failed`);
 
-async function opened(path, { name, width, height, colorScheme }) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme, deviceScaleFactor: 1 });
-  const page = await context.newPage();
-  const [spoken, requested] = [[], []];
-  page.on("console", (message) => spoken.push(message.text()));
-  page.on("pageerror", (error) => spoken.push(error.message));
-  page.on("request", (request) => requested.push(request.url()));
+async function look(path, { name, viewport, colorScheme }) {
+  const { page, spoken, requested, close } = await opened(browser, { viewport, colorScheme, deviceScaleFactor: 1 });
+  const { width } = viewport;
   const address = `file://${resolve(path)}`;
   await page.goto(address);
 
@@ -101,5 +91,5 @@ async function opened(path, { name, width, height, colorScheme }) {
   }
   assert.deepEqual(spoken, [], "the console is silent");
   assert.deepEqual(requested, [address], "nothing is requested");
-  await context.close();
+  await close();
 }

@@ -4,33 +4,24 @@
 //     node test/report.mjs CHROMIUM REPORT [--pictures DIR]
 import assert from "node:assert/strict";
 import { join, resolve } from "node:path";
-import { chromium } from "playwright-core";
+import { launch, opened, screens } from "./open.mjs";
 
 const marked = process.argv.indexOf("--pictures");
 const pictures = marked > 0 ? process.argv.splice(marked, 2)[1] : undefined;
 const [executablePath, report] = process.argv.slice(2);
 assert.ok(report, "usage: node test/report.mjs CHROMIUM REPORT [--pictures DIR]");
 
-const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
-const screens = [
-  { name: "desk", width: 1280, height: 800, colorScheme: "light" },
-  { name: "dark", width: 1280, height: 800, colorScheme: "dark" },
-  { name: "telephone", width: 390, height: 844, colorScheme: "light" },
-];
+const browser = await launch(executablePath);
 for (const screen of screens) {
-  await opened(screen);
-  console.log(`the report at ${screen.width} px, ${screen.colorScheme}: ok`);
+  await look(screen);
+  console.log(`the report at ${screen.viewport.width} px, ${screen.colorScheme}: ok`);
 }
 await browser.close();
 console.log(`${screens.length} passed, 0 failed`);
 
-async function opened({ name, width, height, colorScheme }) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme, deviceScaleFactor: 1 });
-  const page = await context.newPage();
-  const [spoken, requested] = [[], []];
-  page.on("console", (message) => spoken.push(message.text()));
-  page.on("pageerror", (error) => spoken.push(error.message));
-  page.on("request", (request) => requested.push(request.url()));
+async function look({ name, viewport, colorScheme }) {
+  const { page, spoken, requested, close } = await opened(browser, { viewport, colorScheme, deviceScaleFactor: 1 });
+  const { width, height } = viewport;
   const address = `file://${resolve(report)}`;
   await page.goto(address);
 
@@ -101,5 +92,5 @@ async function opened({ name, width, height, colorScheme }) {
   }
   assert.deepEqual(spoken, [], "the console says nothing");
   assert.deepEqual(requested.filter((url) => url !== address && !url.startsWith("data:")), [], "the page asks for nothing");
-  await context.close();
+  await close();
 }

@@ -71,6 +71,10 @@ pub struct Augmented {
     start: Vec<f64>,
     force: Vec<f64>,
     image: Vec<f64>,
+    /// y, the projection by which Λ is judged, and the contact of each normal row.
+    motion: Vec<f64>,
+    projection: Vec<f64>,
+    of_normal: Vec<usize>,
     plain: Option<Matrix>,
     work: Option<Matrix>,
     /// Newton's iterations, and the residual over the largest multiplier, of the problem solved last.
@@ -98,15 +102,16 @@ impl Augmented {
         self.laws.clear();
         self.laws.extend_from_slice(laws);
         self.groups.clear();
-        let mut of_normal = vec![usize::MAX; laws.len()];
+        self.of_normal.clear();
+        self.of_normal.resize(laws.len(), usize::MAX);
         for (i, law) in laws.iter().enumerate() {
             match *law {
                 RowLaw::Free | RowLaw::Unilateral => {
-                    of_normal[i] = self.groups.len();
+                    self.of_normal[i] = self.groups.len();
                     self.groups.push(Group { normal: i, friction: [0; 2], count: 0 });
                 }
                 RowLaw::Friction { normal, .. } | RowLaw::Slip { normal, .. } => {
-                    if let Some(group) = self.groups.get_mut(of_normal[normal])
+                    if let Some(group) = self.groups.get_mut(self.of_normal[normal])
                         && group.count < 2
                     {
                         group.friction[group.count] = i;
@@ -142,7 +147,7 @@ impl Augmented {
         x: &mut [f64],
     ) -> Result<(), Unresolved> {
         let order = factored.order();
-        for list in [&mut self.force, &mut self.image] {
+        for list in [&mut self.force, &mut self.image, &mut self.motion] {
             list.clear();
             list.resize(order, 0.0);
         }
@@ -152,12 +157,14 @@ impl Augmented {
         self.rates.extend_from_slice(b);
         self.measure();
         (self.iterations, self.residual) = (0, f64::INFINITY);
-        let mut y = vec![0.0; order];
-        for ratio in STIFFNESSES {
-            if self.attempt(factored, b, lambda, &mut y, ratio) {
-                x.iter_mut().zip(&y).for_each(|(x, y)| *x += y);
-                return Ok(());
-            }
+        let mut y = std::mem::take(&mut self.motion);
+        let settled = STIFFNESSES.iter().any(|ratio| self.attempt(factored, b, lambda, &mut y, *ratio));
+        if settled {
+            x.iter_mut().zip(&y).for_each(|(x, y)| *x += y);
+        }
+        self.motion = y;
+        if settled {
+            return Ok(());
         }
         lambda.copy_from_slice(&self.start);
         Err(Unresolved { rows: self.laws.len(), sweeps: self.iterations, change: self.residual })
@@ -277,7 +284,9 @@ impl Augmented {
 
     /// Largest |Λ − Π(Λ − s u)| over the largest multiplier.
     fn judge(&mut self, lambda: &[f64]) -> f64 {
-        let mut projection = self.start.clone();
+        let mut projection = std::mem::take(&mut self.projection);
+        projection.clear();
+        projection.extend_from_slice(&self.start);
         let (mut largest, mut worst) = (f64::MIN_POSITIVE, 0.0_f64);
         for (group, stiffness) in self.groups.iter().zip(&self.stiffness) {
             let z = |i: usize| lambda[i] - stiffness[usize::from(i != group.normal)] * self.rates[i];
@@ -288,6 +297,7 @@ impl Augmented {
                 worst = if off.is_nan() { f64::INFINITY } else { worst.max(off) };
             }
         }
+        self.projection = projection;
         if worst == 0.0 { 0.0 } else { worst / largest }
     }
 

@@ -34,7 +34,7 @@ pub struct Columns {
     pub modal_shares: bool,
 }
 
-/// An imbalance of the energy, over what bursts have lost, up to which it is that.
+/// An imbalance of the energy, over that of bursts, up to which it is that.
 const SAME: f64 = 1.1;
 
 /// Bursts of contacts that chattered, all together.
@@ -44,7 +44,7 @@ struct Chatter {
     duration: f64,
     bursts: u64,
     step: f64,
-    lost: f64,
+    off: f64,
 }
 
 /// Records the channels of a system and what every run has: the total energy, the size of the step and
@@ -199,19 +199,19 @@ impl<'a> Recorder<'a> {
     fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
         let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
         let doubtful = self.imbalance().or_else(|| self.lost());
-        // What bursts have lost is said of them.
-        let known = self.chatter.map_or(0.0, |of| SAME * of.lost).max(rounding_energy(system, state));
+        // By what the balance is off in bursts is said of them.
+        let known = self.chatter.map_or(0.0, |of| SAME * of.off).max(rounding_energy(system, state));
         let doubtful = doubtful.filter(|(size, _)| *size > known).map(|(_, warning)| warning);
         let stepped_over = self.stepped_over.clone();
         let stepped_over = stepped_over.map(|(time, contact)| Warning::SteppedOver { time, contact });
         let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
         let coarse = coarse.map(|steps| Warning::FewStepsAPeriod { steps, wanted: STEPS_A_PERIOD });
-        let chatter = self.chatter.map(|Chatter { begin, duration, bursts, step, lost }| Warning::Chatter {
+        let chatter = self.chatter.map(|Chatter { begin, duration, bursts, step, off }| Warning::Chatter {
             begin,
             duration,
             bursts,
             step,
-            lost,
+            off,
         });
         let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
         let of_contacts = stepped_over.into_iter().chain(chatter).chain(grinds);
@@ -305,12 +305,12 @@ impl Observer for Recorder<'_> {
         }
     }
 
-    fn burst(&mut self, begin: f64, end: f64, step: f64, lost: f64) {
+    fn burst(&mut self, begin: f64, end: f64, step: f64, off: f64) {
         let all = self.chatter.get_or_insert(Chatter { begin, ..Chatter::default() });
         all.duration += end - begin;
         all.bursts += 1;
         all.step = all.step.max(step);
-        all.lost += lost;
+        all.off += off;
     }
 
     fn grinds(&mut self, time: f64, mean: f64) {

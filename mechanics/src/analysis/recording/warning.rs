@@ -50,7 +50,7 @@ pub enum Warning {
     #[error(
         "contacts chatter from t = {begin:.6} s on, faster than their events can be found one by one: {duration:.4} s of the run, in \
          {bursts} burst{}, are computed by nonsmooth steps of at most {step:.2e} s, to which the times of impacts in them are known, and whose \
-         balance of energy is off by {lost:.2e} J, counted as lost in contacts",
+         balance of energy is off by {off:.2e} J, which that of the run leaves out",
         if *bursts == 1 { "" } else { "s" }
     )]
     Chatter {
@@ -63,7 +63,7 @@ pub enum Warning {
         /// Longest step \[s\].
         step: f64,
         /// By what the balance of energy of the steps is off \[J\].
-        lost: f64,
+        off: f64,
     },
     /// Events of continuous forces follow each other fast.
     #[error(

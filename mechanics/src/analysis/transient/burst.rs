@@ -6,7 +6,7 @@
 //! added up as what [bounces not followed](crate::contact::Neglected) would have done.
 //!
 //! Steps begin short and are doubled, for what is fast in a burst is dissipated first, and halved where they do not converge. What the balance of energy does not explain of
-//! them, of vibrations and forces of damping that they do not resolve, is counted as lost in contacts, and shown with the burst.
+//! them, of vibrations and forces of damping that they do not resolve, is left out of the balance of the run, and shown with the burst.
 //!
 //! The run comes back to its own method when no contact has opened or closed for so many steps, twice as many each time; where it cannot, for rows of
 //! closed contacts depend on each other, it goes on with nonsmooth steps.
