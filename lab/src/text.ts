@@ -31,8 +31,8 @@ export const inRadians = (unit: string) => PER_SECOND[unit] ?? 1;
 export function ticks(low: number, high: number, count = 5): number[] {
   if (!(high > low)) return [low];
   const least = (high - low) / count;
-  // The next of 1, 2, 5 and 10 times a power of ten.
-  const step = [1, 2, 2.5, 5].map((by) => by * nice(least)).find((step) => nice(step) === step && step >= least * (1 - 1e-9)) ?? least;
+  const power = 10 ** Math.floor(Math.log10(least));
+  const step = [1, 2, 5, 10].map((by) => by * power).find((step) => step >= least * (1 - 1e-9)) ?? 10 * power;
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.floor(high / step + 1e-9);
   return Array.from({ length: Math.min(last - first + 1, 100) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
