@@ -1,6 +1,6 @@
 // Runs the verification cases in WebAssembly and by the program, and compares their files byte by byte:
 //
-//     node compare.mjs ENGINE.wasm FLEXION [NAME…]
+//     [LONGEST=10] node compare.mjs ENGINE.wasm FLEXION [NAME…]
 //
 // trajectory.csv, events.csv, the resolved case, and summary.json without its times: status, warnings and estimated errors are in it. A case
 // that takes the program more than LONGEST seconds, or goes on from an archive, which the module does not read, is listed and left out. Exits with
@@ -14,7 +14,7 @@ import { fileURLToPath } from "node:url";
 import { Worker, isMainThread, parentPort, workerData } from "node:worker_threads";
 import { open } from "./engine.mjs";
 
-const LONGEST = 10;
+const LONGEST = Number(process.env.LONGEST ?? 10);
 const TIMES = /"(wall_time|cpu_time|preparation_wall_time|preparation_cpu_time)": [^\n]*\n/g;
 const root = fileURLToPath(new URL("../../verification", import.meta.url));
 

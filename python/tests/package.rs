@@ -5,6 +5,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The program that makes the environment.
 const ENVIRONMENT: &str = "import sys, venv; sys.exit('it is older than 3.10') if sys.version_info < (3, 10) else venv.create(sys.argv[1], with_pip=True, clear=True)";
@@ -87,18 +88,51 @@ fn tests(python: &Path) -> Result<u32, String> {
         command.args(words).env("PYTHONPATH", &site).current_dir(&site);
         command
     };
-    let tests = sources().join("tests");
-    let said = run(with(&["-m", "pytest", "-p", "no:cacheprovider", "-W", "ignore"]).arg(&tests))
-        .map_err(|said| format!("\n{said}"))?;
+    let passed = in_files(|file| {
+        let file = sources().join("tests").join(file);
+        run(with(&["-m", "pytest", "-p", "no:cacheprovider", "-W", "ignore"]).arg(file))
+    })?;
     let examples = run(with(&["-m", "doctest"]).arg(package.join("_value.py")));
     examples.map_err(|said| format!("\n{said}"))?;
     let settings = sources().join("pyproject.toml");
     let strict = run(with(&["-m", "mypy", "--strict", "-p", "flexion", "--config-file"]).arg(&settings));
     strict.map_err(|said| format!("\n{said}"))?;
     run(&mut with(&["-m", "mypy.stubtest", "flexion._core"])).map_err(|said| format!("\n{said}"))?;
-    let counted = said.lines().rev().find_map(|line| line.split_once(" passed"));
-    let count = counted.and_then(|(before, _)| before.rsplit([' ', ',']).next()?.parse().ok());
-    count.ok_or_else(|| format!("no number of tests was said:\n{said}"))
+    Ok(passed)
+}
+
+/// Runs the files of tests, one a processor at a time: the number of tests that passed.
+fn in_files(test: impl Fn(&str) -> Result<String, String> + Sync) -> Result<u32, String> {
+    let names = std::fs::read_dir(sources().join("tests")).map_err(|error| error.to_string())?;
+    let names = names.flatten().map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let mut files: Vec<String> =
+        names.filter(|name| name.starts_with("test_") && name.ends_with(".py")).collect();
+    files.sort();
+    let (left, sums) = (Mutex::new(files), Mutex::new((0, String::new())));
+    let worker = || {
+        while let Some(file) = locked(&left).pop() {
+            let said = test(&file);
+            let text = said.as_ref().unwrap_or_else(|said| said);
+            let counted = text.lines().rev().find_map(|line| line.split_once(" passed"));
+            let count = counted.and_then(|(before, _)| before.rsplit([' ', ',']).next()?.parse::<u32>().ok());
+            let mut sums = locked(&sums);
+            sums.0 += count.unwrap_or(0);
+            if said.is_err() || count.is_none() {
+                sums.1 += &format!("\n{file}:\n{text}");
+            }
+        }
+    };
+    std::thread::scope(|scope| {
+        (0..std::thread::available_parallelism().map_or(1, usize::from)).for_each(|_| {
+            scope.spawn(worker);
+        });
+    });
+    let (passed, failed) = &*locked(&sums);
+    if failed.is_empty() { Ok(*passed) } else { Err(failed.clone()) }
+}
+
+fn locked<T>(of: &Mutex<T>) -> MutexGuard<'_, T> {
+    of.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Copies the sources of the package, and the library that was built beside this test, to where Python finds them.
