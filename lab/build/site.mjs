@@ -25,6 +25,9 @@ mkdirSync(join(site, "lab"), { recursive: true });
 node("pages.mjs", file);
 for (const name of ["index.html", "engine.wasm", "lab.html", "files"]) cpSync(join(lab, "dist", name), join(site, "lab", name), { recursive: true });
 node("pictures.mjs", file, join(site, "lab/pictures"));
+const page = join(site, "lab/index.html");
+const pictures = JSON.stringify(readdirSync(join(site, "lab/pictures")));
+writeFileSync(page, readFileSync(page, "utf8").replace('id="pictures">[]<', () => `id="pictures">${pictures}<`));
 
 const { items } = JSON.parse(readFileSync(join(lab, "made/gallery.json"), "utf8"));
 const escaped = (text) => text.replace(/[&<>"]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" })[c]);

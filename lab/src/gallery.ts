@@ -70,16 +70,13 @@ export function nearest(id: string): string | undefined {
   return score(best) > 0 ? best : undefined;
 }
 
-/** Pictures lie beside the page, where it comes from a site. */
-const pictured = location.protocol.startsWith("http");
+/** Names of the pictures that a site has beside the page. */
+const pictures = new Set(JSON.parse(document.getElementById("pictures")?.textContent ?? "[]") as string[]);
 
 function card(item: Item): HTMLElement {
   const link = tag("a", { class: "card", href: `#case=${encodeURIComponent(item.id).replaceAll("%2F", "/")}` });
-  if (pictured) {
-    const picture = tag("img", { src: `pictures/${item.id.replace("/", "-")}.svg`, alt: "", loading: "lazy", width: "200", height: "120" });
-    picture.addEventListener("error", () => picture.remove());
-    link.append(picture);
-  }
+  const name = `${item.id.replace("/", "-")}.svg`;
+  if (pictures.has(name)) link.append(tag("img", { src: `pictures/${name}`, alt: "", loading: "lazy", width: "200", height: "120" }));
   link.append(tag("b", {}, item.title), tag("span", {}, item.sentence));
   return link;
 }
