@@ -157,3 +157,36 @@ fn the_impulse_of_a_contact_is_that_of_all_its_impacts() {
         assert!((found - expected).abs() < 2e-3, "{restitution}: {found}");
     }
 }
+
+/// Records that are far apart miss the crests of a vibration: what they leave is in the error.
+#[test]
+fn the_distance_of_records_is_in_the_error_of_extremes() {
+    let none = Request { effort: None, ..Request::default() };
+    let names = [
+        "tip.deflection.amplitude@15..20",
+        "tip.deflection_velocity.max@15..20",
+        "tip.deflection.largest@15..20",
+    ];
+    let at = |step: &str| {
+        let step = format!("output.step={step}");
+        let (run, quantities) = run(&case("p1_spin_up_4", &[&step]), &names, &none);
+        quantities.iter().map(|of| of.collect(&run).unwrap()).collect::<Vec<_>>()
+    };
+    let fine = at("2 ms");
+    for step in ["1 s", "0.5 s", "0.2 s", "0.1 s", "0.05 s", "0.02 s"] {
+        for ((found, fine), name) in at(step).iter().zip(&fine).zip(names) {
+            let off = (found.value - fine.value).abs();
+            println!("{step} {name}: off {off:.1e}, stated {:.1e}", found.records);
+            assert!(
+                off <= found.records + 1e-9 * fine.value.abs(),
+                "{step} {name}: {off:.2e} {:.2e}",
+                found.records
+            );
+            assert!(
+                found.records <= fine.value.abs().max(100.0 * off),
+                "{step} {name}: {off:.2e} {:.2e}",
+                found.records
+            );
+        }
+    }
+}

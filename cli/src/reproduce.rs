@@ -195,6 +195,9 @@ fn place(word: &str) -> Place {
         let built_in = built_in_names().iter().any(|built| built == name);
         let there = !built_in && Path::new(name).join("paper.toml").is_file();
         let item = item.map(str::to_owned);
+        if built_in && Path::new(name).join("paper.toml").is_file() {
+            screen::report(&format!("{name} is the paper that is built in; the folder is ./{name}\n"));
+        }
         (built_in || there).then(|| Place { folder: there.then(|| name.into()), name: name.to_owned(), item })
     };
     let with_item = || word.rsplit_once('/').and_then(|(name, item)| of(name, Some(item)));

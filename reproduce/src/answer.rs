@@ -56,6 +56,11 @@ pub struct Curve {
 }
 
 impl Answer {
+    /// Whether its case was refused.
+    pub fn refused(&self) -> bool {
+        self.status == "rejected"
+    }
+
     /// A case that cannot be computed.
     pub fn rejected(message: String) -> Answer {
         Answer { status: "rejected".to_owned(), message: Some(message), ..Answer::default() }

@@ -1,6 +1,6 @@
 //! `--check`: the values of a paper against those that were accepted.
 
-use crate::answer::Answer;
+use crate::answer::{Answer, Curve};
 use crate::described::{As, Described};
 use crate::need::{Asks, Need, of_paper};
 use crate::rule::Ruled;
@@ -87,10 +87,15 @@ fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
                 out.values.insert(name, [value.value, value.error.unwrap_or(-1.0)]);
             }
         }
+        for (column, curve) in &answer.curves {
+            let Ok(curve) = curve else { continue };
+            let name = format!("{run} | {column} root-mean-square");
+            out.values.insert(name, [root_mean_square(&curve.y), largest_error(curve)]);
+        }
     }
     for (id, item) in &described.items {
         let answers = of_item(id, item, &numbers, answers);
-        // Curves are kept by their differences.
+        // Curves are compared by their differences.
         for of in crate::need::terms(item).iter().filter(|of| of.compared == Some(As::CurveDifference)) {
             if let (Ok(value), Some(to)) = (of_run(of, &answers), &of.to) {
                 let name = format!("{id}: {} to {to} | {} curve-difference", of.run, of.quantity);
@@ -105,6 +110,21 @@ fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
         }
     }
     out
+}
+
+/// √(Σyᵢ²/n) of the records of a curve, whose error is at most the largest error of y.
+fn root_mean_square(y: &[f64]) -> f64 {
+    let largest = y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+    if largest == 0.0 {
+        return 0.0;
+    }
+    largest * (y.iter().map(|y| (y / largest).powi(2)).sum::<f64>() / y.len() as f64).sqrt()
+}
+
+/// The largest stated error of a curve, -1 where it is not known.
+fn largest_error(curve: &Curve) -> f64 {
+    let known = !curve.off.is_empty() && curve.off.iter().all(|off| off.is_finite());
+    if known { curve.off.iter().copied().fold(0.0, f64::max) } else { -1.0 }
 }
 
 /// The text of `expected.toml` for these answers; what was not run is kept as it stands.

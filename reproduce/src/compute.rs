@@ -212,7 +212,7 @@ fn in_time(
             // Where the run is asked for with the mesh and the steps that it has.
             let own = itself && !quantity.varies();
             let error = if own {
-                Some(if value.fract() == 0.0 { 0.0 } else { ROUNDED * value.abs() })
+                Some(if value.fract() == 0.0 { 0.0 } else { ROUNDED * value.abs() } + collected.records)
             } else {
                 collected.error
             };
@@ -242,7 +242,7 @@ fn in_time(
             || "by a companion with a finer mesh and a more accurate integration".to_owned(),
             |why| format!("not known: {why}"),
         ),
-        _ => "of rounding: the run is asked for with the mesh and the steps that it has".to_owned(),
+        _ => "of rounding, and of the distance of records: the run is asked for with the mesh and the steps that it has".to_owned(),
     };
     let warnings = run.all_warnings().map(str::to_owned).collect();
     Ok(Answer {

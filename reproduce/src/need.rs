@@ -266,6 +266,9 @@ pub fn problems(item: &Item) -> Vec<String> {
     if all > MOST_RUNS {
         return vec![format!("it has {all:.0} runs, and at most {MOST_RUNS:.0} are taken")];
     }
+    for template in &item.runs {
+        out.extend(contradictions(template).map(|problem| format!("run `{}`: {problem}", template.name)));
+    }
     let names: Vec<String> = runs(item).into_iter().map(|run| run.name).collect();
     for (i, name) in names.iter().enumerate() {
         if names[..i].contains(name) {
@@ -300,6 +303,20 @@ pub fn problems(item: &Item) -> Vec<String> {
         out.extend(unfilled(claim).into_iter().map(|problem| format!("{}: {problem}", claim.text)));
     }
     out
+}
+
+/// What of a run contradicts itself or says nothing.
+fn contradictions(template: &Template) -> impl Iterator<Item = String> {
+    let both = template.modes.is_some() && template.strain_energy.is_some();
+    let both = both
+        .then(|| "`modes` and `strain-energy` ask for different frequencies: make it two runs".to_owned());
+    let none = template.each.iter().filter(|(_, values)| values.is_empty());
+    let none = none
+        .map(|(key, _)| format!("`each` has no value of `{key}`, and so there is no run"))
+        .collect::<Vec<_>>();
+    let seconds = template.seconds.filter(|seconds| !(*seconds > 0.0 && seconds.is_finite()));
+    let seconds = seconds.map(|seconds| format!("`seconds` is {seconds}: a positive time is asked"));
+    both.into_iter().chain(none).chain(seconds)
 }
 
 /// What is wrong with a rule that says nothing.

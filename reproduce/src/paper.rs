@@ -1,8 +1,9 @@
 //! Reading a paper: from the program, or from a folder.
 
 use crate::described::{Described, Item, ItemKind, Lines, Paper};
+use flexion_results::nearest;
 use include_dir::{Dir, include_dir};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// The papers that are built into the program.
@@ -86,7 +87,11 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
         return Err(PaperError(problems));
     };
     let mut items = Vec::new();
-    for item in &paper.items {
+    for (i, item) in paper.items.iter().enumerate() {
+        if paper.items[..i].contains(item) {
+            problems.push(format!("{place}/paper.toml: `items` has {item} twice"));
+            continue;
+        }
         let file = format!("{item}.toml");
         let Some(mut read) = parsed::<Item>(place, &file, files, &mut problems) else { continue };
         read.lines = files.get(&file).map(|text| lines(text)).unwrap_or_default();
@@ -95,8 +100,12 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
         }
         let cases = read.runs.iter().map(|run| ("case", format!("cases/{}.toml", run.case)));
         let drawing = read.drawing.iter().map(|file| ("drawing", file.clone()));
-        for (what, name) in cases.chain(drawing).filter(|(_, name)| !files.contains_key(name)) {
-            problems.push(format!("{place}/{file}: its {what} {place}/{name} does not exist"));
+        let named: BTreeSet<(&str, String)> = cases.chain(drawing).collect();
+        for (what, name) in named.into_iter().filter(|(_, name)| !files.contains_key(name)) {
+            let there = files.keys().map(String::as_str);
+            let nearest =
+                nearest(&name, there).map_or(String::new(), |name| format!("; perhaps {place}/{name}"));
+            problems.push(format!("{place}/{file}: its {what} {place}/{name} does not exist{nearest}"));
         }
         problems.extend(
             crate::need::problems(&read).into_iter().map(|problem| format!("{place}/{file}: {problem}")),
@@ -144,10 +153,19 @@ fn parsed<T: serde::de::DeserializeOwned>(
     match toml::from_str(text) {
         Ok(read) => Some(read),
         Err(error) => {
-            problems.push(format!("{place}/{file}: {}", error.to_string().trim_end()));
+            let perhaps = meant(error.message()).map_or(String::new(), |name| format!("; perhaps `{name}`"));
+            problems.push(format!("{place}/{file}: {}{perhaps}", error.to_string().trim_end()));
             None
         }
     }
+}
+
+/// The name that is nearest to an unknown one, among those that a message offers: "unknown field `a`, expected one of `b`, `c`".
+fn meant(message: &str) -> Option<&str> {
+    let (_, rest) = message.split_once("unknown ")?;
+    let mut quoted = rest.split('`').skip(1).step_by(2);
+    let unknown = quoted.next()?;
+    nearest(unknown, quoted)
 }
 
 /// Where things stand in the file of an item.

@@ -33,6 +33,8 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
     let judged = |need: &Need| {
         let text = described.cases.get(&need.run.key.case).unwrap_or(&none);
         let before = kept.as_ref().and_then(|kept| kept.find(text, need));
+        // A refusal was judged by what the paper asked then.
+        let before = before.filter(|answer| need.run.refused || !answer.refused());
         before.map_or_else(|| of_need(described, need), |answer| (answer.units, Vec::new()))
     };
     let found: Mutex<BTreeMap<usize, (Of, Vec<String>)>> = Mutex::default();

@@ -80,7 +80,7 @@ impl Row {
         let bits = |x: Option<f64>| x.map(f64::to_bits);
         let of = |row: &Row| {
             let quantities = row.quantities.iter().map(|of| {
-                of.map(|Collected { value, time, error, trusted }| {
+                of.map(|Collected { value, time, error, trusted, .. }| {
                     (value.to_bits(), time.to_bits(), bits(error), trusted)
                 })
             });

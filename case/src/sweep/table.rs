@@ -100,7 +100,13 @@ pub(super) fn rows(sweep: &Sweep, columns: Vec<Data>) -> Option<Vec<Row>> {
             _ => None,
         };
         let collected = |([values, errors, times], trusted): &([Vec<Option<f64>>; 3], Vec<Option<bool>>)| {
-            Some(Collected { value: values[i]?, time: times[i]?, error: errors[i], trusted: trusted[i] })
+            Some(Collected {
+                value: values[i]?,
+                time: times[i]?,
+                error: errors[i],
+                records: 0.0,
+                trusted: trusted[i],
+            })
         };
         Some(Row {
             number: usize::try_from(numbers[i]).ok()?,

@@ -99,6 +99,8 @@ pub struct Collected {
     pub time: f64,
     /// Its estimated error ±, in the unit of the quantity; `None` where it is not estimated.
     pub error: Option<f64>,
+    /// The part of the error that the distance of the records has, where the value is an extreme within some times, in the unit of the quantity.
+    pub records: f64,
     /// Whether it lies within the time in which the run is trusted; `None` where that is not estimated.
     pub trusted: Option<bool>,
 }
@@ -171,6 +173,7 @@ impl Quantity {
     /// Why there is none.
     pub fn collect(&self, run: &Run) -> Result<Collected, String> {
         let Measured { value, time } = self.measure_run(run)?;
+        let records = self.error_of_records(&run.trajectory, value);
         let known = run.errors.as_ref().filter(|errors| errors.unknown.is_none());
         let error = match (&self.of, self.within) {
             (Of::Work(Work::Seconds), _) => Some(SECONDS * value),
@@ -188,12 +191,12 @@ impl Quantity {
                     return self.error_of_time(run, (&errors.finer, errors.safety), column, *of, time);
                 }
                 let finer = self.measure_column(&errors.finer, column, *of).ok()?;
-                Some(errors.safety * (value - finer.value).abs() + ROUNDING * value.abs())
+                Some(errors.safety * (value - finer.value).abs() + ROUNDING * value.abs() + records)
             }),
             (Of::Contact(..), _) => None,
         };
         let error = error.filter(|error| error.is_finite());
-        Ok(Collected { value, time, error, trusted: known.map(|errors| time <= errors.trusted) })
+        Ok(Collected { value, time, error, records, trusted: known.map(|errors| time <= errors.trusted) })
     }
 
     /// Its value in a run, with the error by another run of the same motion that is more accurate: twice the difference.
@@ -202,6 +205,7 @@ impl Quantity {
     /// Why there is no value.
     pub fn collect_against(&self, run: &Run, other: &Run) -> Result<Collected, String> {
         let Measured { value, time } = self.measure_run(run)?;
+        let records = self.error_of_records(&run.trajectory, value);
         let error = match self.of {
             Of::Work(Work::Seconds) => Some(SECONDS * value),
             Of::Work(_) | Of::End | Of::Trusted => Some(0.0),
@@ -211,9 +215,9 @@ impl Quantity {
             Of::Column(..) | Of::Contact(..) => self
                 .measure_run(other)
                 .ok()
-                .map(|other| SAFETY * (value - other.value).abs() + ROUNDING * value.abs()),
+                .map(|other| SAFETY * (value - other.value).abs() + ROUNDING * value.abs() + records),
         };
-        Ok(Collected { value, time, error: error.filter(|error| error.is_finite()), trusted: None })
+        Ok(Collected { value, time, error: error.filter(|error| error.is_finite()), records, trusted: None })
     }
 
     /// The error \[s\] of the time of an extreme by a more accurate run with its factor of safety: no less than that of the times themselves.
