@@ -190,3 +190,18 @@ fn the_distance_of_records_is_in_the_error_of_extremes() {
         }
     }
 }
+
+/// The speed Ω(t/T − sin(2πt/T)/2π) of the hub until T has the mean Ω/2 and the mean square Ω²(1/3 + 5/(8π²)).
+#[test]
+fn means_are_integrals_over_time() {
+    let none = Request { effort: None, ..Request::default() };
+    let names =
+        ["hub.speed.mean@0..15", "hub.speed.root-mean-square@0..15", "hub.speed.root-mean-square@15.."];
+    let (run, quantities) = run(&case("p1_spin_up_4", &[]), &names, &none);
+    let square = 1.0 / 3.0 + 5.0 / (8.0 * std::f64::consts::PI.powi(2));
+    for (quantity, exact) in quantities.iter().zip([2.0, 4.0 * square.sqrt(), 4.0]) {
+        let found = quantity.collect(&run).unwrap();
+        let off = (found.value - exact).abs();
+        assert!(off <= found.records + 1e-12 * exact && found.records < 1e-4 * exact, "{found:?} {exact}");
+    }
+}

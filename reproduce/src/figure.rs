@@ -94,9 +94,11 @@ fn panel(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
 }
 
 /// The endings of quantities in words.
-const ENDINGS: [(&str, &str); 13] = [
+const ENDINGS: [(&str, &str); 15] = [
     (".time-of-min", "time of the smallest"),
     (".time-of-max", "time of the largest"),
+    (".root-mean-square", "root mean square"),
+    (".mean", "mean"),
     (".min", "smallest"),
     (".max", "largest"),
     (".final", "last"),

@@ -354,10 +354,56 @@ fn everything_wrong_with_a_paper_is_said_at_once() {
     std::fs::write(folder.path().join("F1.toml"), RUNS.replace("[table]", "[tabel]")).unwrap();
     let message = from_folder(folder.path()).unwrap_err().to_string();
     assert!(
-        message.contains("tabel") && message.contains("F1.toml") && message.contains("line"),
+        ["tabel", "F1.toml", "line", "perhaps `table`"].iter().all(|part| message.contains(part)),
         "{message}"
     );
+    // A case that two runs name and that is not there is said once.
+    std::fs::write(folder.path().join("F1.toml"), RUNS.replace("'spin_up'", "'spin_upp'")).unwrap();
+    let message = from_folder(folder.path()).unwrap_err().to_string();
+    assert_eq!(message.matches("spin_upp.toml does not exist").count(), 1, "{message}");
+    assert!(message.contains("perhaps") && message.contains("cases/spin_up.toml"), "{message}");
     assert!(built_in("P9").unwrap_err().to_string().contains("P1, P2, P3, P4, P5"));
+}
+
+/// Runs that contradict themselves, or that there are none of, and an item that stands twice.
+#[test]
+fn runs_that_say_nothing_are_rejected() {
+    let folder = tempfile::tempdir().unwrap();
+    paper_of(folder.path(), RUNS);
+    let message = |item: &str| {
+        std::fs::write(folder.path().join("F1.toml"), item).unwrap();
+        from_folder(folder.path()).map_or_else(|error| error.to_string(), |_| String::new())
+    };
+    let with = |more: &str| RUNS.replace("name = 'few'\n", &format!("name = 'few'\n{more}\n"));
+    let modes =
+        "modes = { speed = 4, count = 1 }\nstrain-energy = { energy = 'linear', speed = 4, count = 1 }";
+    assert!(message(&with(modes)).contains("run `few`: `modes` and `strain-energy`"));
+    assert!(message(&with("each = { n = [] }")).contains("run `few`: `each` has no value of `n`"));
+    for seconds in ["-1", "0", "nan"] {
+        assert!(message(&with(&format!("seconds = {seconds}"))).contains("a positive time"));
+    }
+    assert_eq!(message(RUNS), "");
+    let paper = std::fs::read_to_string(folder.path().join("paper.toml")).unwrap();
+    std::fs::write(folder.path().join("paper.toml"), paper.replace("['F1']", "['F1', 'F1']")).unwrap();
+    assert!(message(RUNS).contains("`items` has F1 twice"));
+}
+
+/// A refusal that was kept is rejected once the paper does not ask for it any more.
+#[test]
+fn a_kept_refusal_is_judged_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = RUNS
+        .replace("basis={kind=\"modes\",axial=4,transverse=4}", "basis={kind=\"radial\",nodes=11,shape=8}");
+    let asked = refused.replace("name = 'many'", "name = 'many'\nrefused = true");
+    let keep = Some(folder.path().join("kept"));
+    let options = Options { keep, identity: "this".to_owned(), ..Options::default() };
+    let items = ["F1".to_owned()];
+    let paper = paper_of(folder.path(), &asked);
+    sound(&paper, &items, &options).unwrap();
+    assert!(computed(&paper, &options).iter().flatten().any(Answer::refused));
+    sound(&paper, &items, &options).unwrap();
+    let paper = paper_of(folder.path(), &refused);
+    assert!(sound(&paper, &items, &options).unwrap_err().to_string().contains("refused = true"));
 }
 
 /// What a run of a paper cannot be is said before any is computed, at its line, with the nearest name; a refusal that is asked for is none.
@@ -474,6 +520,14 @@ fn a_changed_curve_fails_the_check() {
     curve.y.iter_mut().for_each(|y| *y *= 1.5);
     let failed = check(&paper, &changed).unwrap().failed;
     assert!(failed.iter().any(|line| line.contains("curve-difference")), "{failed:?}");
+    // Of curves that change alike the differences stay.
+    for answer in changed[1..].iter_mut().flatten() {
+        let curve = answer.curves.get_mut("tip.deflection").unwrap().as_mut().unwrap();
+        curve.y.iter_mut().for_each(|y| *y *= 1.5);
+    }
+    let failed = check(&paper, &changed).unwrap().failed;
+    assert!(!failed.iter().any(|line| line.contains("curve-difference")), "{failed:?}");
+    assert_eq!(failed.iter().filter(|line| line.contains("root-mean-square")).count(), 3, "{failed:?}");
 }
 
 /// The studies of the repository, and the papers, can be computed, but for what time shows.

@@ -31,6 +31,10 @@ pub enum Value {
     Middle,
     /// The largest absolute value.
     Largest,
+    /// The mean over time, ∫y dt/T.
+    Mean,
+    /// √(∫y² dt/T).
+    RootMeanSquare,
     /// The value at the time of a record \[s\].
     At(f64),
 }
@@ -110,7 +114,7 @@ const SECONDS: f64 = 1.0 / 3.0;
 /// Part of a value that rounding may have taken.
 pub const ROUNDING: f64 = 1e-12;
 
-const VALUES: [(&str, Value); 8] = [
+const VALUES: [(&str, Value); 10] = [
     (".min", Value::Min),
     (".max", Value::Max),
     (".final", Value::Final),
@@ -119,6 +123,8 @@ const VALUES: [(&str, Value); 8] = [
     (".amplitude", Value::Amplitude),
     (".middle", Value::Middle),
     (".largest", Value::Largest),
+    (".mean", Value::Mean),
+    (".root-mean-square", Value::RootMeanSquare),
 ];
 const CONTACTS: [(&str, OfContact); 4] = [
     (".first-touch", OfContact::FirstTouch),
