@@ -6,6 +6,9 @@
 -0.0115 ± 2e-06 m
 """
 
+import atexit as _atexit
+
+from . import _core as _engine
 from ._case import Advice, Case
 from ._compare import Comparison, Difference, compare, plot
 from ._core import schema, version
@@ -31,6 +34,9 @@ from ._vibration import Branch, Crossing, Diagram, Mode, Modes, Resonance
 from ._view import View
 
 __version__ = version()
+
+# Threads that Python ends while they compute would end the process.
+_atexit.register(_engine.end)
 
 __all__ = [
     "Advice",

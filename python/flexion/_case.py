@@ -147,6 +147,8 @@ class Case:
 
         Ctrl-C raises :class:`flexion.Interrupted`, a run that breaks down :class:`flexion.RunError`; both have what was computed as ``.result``.
         """
+        if until is not None and not until >= 0.0:
+            raise ValueError(f"`until` is {until} and must be a time of at least 0 s")
         bar = Progress(progress, stop)
         asked = None if tolerance is None else str(tolerance)
         try:
@@ -221,6 +223,10 @@ class Case:
 
         ``step`` is the longest step, of displacements over the length of the beam and of the load factor; ``points`` the most equilibria.
         """
+        if not step > 0.0:
+            raise ValueError(f"`step` is {step} and must be positive")
+        if not points >= 1:
+            raise ValueError(f"`points` is {points} and must be at least 1")
         bar = Progress(progress, stop)
         try:
             core, raised = self._case.statics(to, step, points, errors, bar)
@@ -253,6 +259,8 @@ class Case:
         An input is the amplitude of a load, ``inputs={"push": {"on": "tip", "force": [0, 1], "axes": "hub"}}``; ``"hub.torque": None`` is that
         of a free hub of a beam. Outputs are columns of a run that are functions of the motion.
         """
+        if isinstance(outputs, str):
+            raise TypeError(f"`outputs` is a list of columns: write [{outputs!r}]")
         given = dict(inputs or {})
         found = self._case.linearize(float(speed), free_hub, list(given.items()), list(outputs))
         names, (m, d, g, k, b, j, z), (p, v, a), units, at, warnings = found

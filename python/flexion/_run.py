@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
 import numpy as np
 
@@ -170,6 +170,9 @@ class Run(Mapping[str, Column]):
 
     __hash__ = object.__hash__
 
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a run is not pickled: `save` it into a folder, and `flexion.load` that")
+
     def __eq__(self, other: object) -> bool:
         return self is other
 
@@ -208,6 +211,8 @@ class Run(Mapping[str, Column]):
     def trust(self) -> Trust:
         """What the estimate of errors says of it as a whole."""
         of = self.summary.get("trust")
+        if of is None and self.status == "stopped":
+            return Trust(False, "the run was stopped, and errors are estimated of a whole run", None)
         if of is None:
             return Trust(False, "no errors were asked for", None)
         return Trust(bool(of["estimated"]), of["reason"], of["until"])
@@ -331,8 +336,11 @@ def load(folder: str | os.PathLike[str]) -> Run:
     summary = path / "summary.json"
     if not summary.is_file():
         raise FileNotFoundError(f"{path} holds no summary.json: give the folder of a run")
-    stated = json.loads(summary.read_text(encoding="utf-8"))
-    if "columns" not in stated:
+    try:
+        stated = json.loads(summary.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise ValueError(f"{summary} cannot be read ({error}): it is torn or was changed; run the case again") from error
+    if not isinstance(stated, dict) or "columns" not in stated:
         raise ValueError(f"{summary} is not the summary of a run")
     run = Run(stored, stated, path.resolve().name, path)
     if stored.caution is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Protocol
+from typing import NoReturn, Protocol
 
 from . import _core
 from ._figure import Figure
@@ -44,6 +44,9 @@ class Shown:
     """A result of an analysis, with its warnings, its figure and its files."""
 
     _core: _Core
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError(f"{type(self).__name__} is not pickled: take its arrays, or `save` it into a folder")
 
     @property
     def warnings(self) -> tuple[str, ...]:

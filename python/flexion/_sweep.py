@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import os
+import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
@@ -131,7 +132,7 @@ def sweep(
     table: Any = None,
     sample: str | None = None,
     runs: int | None = None,
-    seed: int = 0,
+    seed: int | None = None,
     errors: str = "sample",
     limit: int | None = None,
     keep_going: bool = False,
@@ -146,7 +147,7 @@ def sweep(
 
     ``vary`` holds the values of dotted keys, run in all combinations, the last key changing fastest; ``table`` instead a row a run, as a frame, a
     list of dicts, a dict of columns, or the path of a CSV file. With ``sample``, ``"lhs"`` or ``"sobol"``, ``runs`` points of ranges
-    ``"9.9 m:10.1 m"`` and distributions are drawn with ``seed``.
+    ``"9.9 m:10.1 m"`` and distributions are drawn with ``seed``, 0 where none is given.
 
     ``errors`` are estimated of ``"each"`` row, of a ``"sample"`` of 20, or of ``"none"``. A run of more than ``limit`` steps is given up. More than a tenth
     of failed rows stop the sweep, unless ``keep_going``.
@@ -156,7 +157,9 @@ def sweep(
     one thread. A row has the same bits anywhere.
     """
     asked = (quantities,) if isinstance(quantities, str) else tuple(quantities)
-    drawn = None if sample is None else (sample, _runs(runs), seed)
+    if sample is None and not (runs is None and seed is None):
+        raise ValueError("`runs` and `seed` are of a sample, and there is none: give `sample=`")
+    drawn = None if sample is None else (sample, _runs(runs), 0 if seed is None else seed)
     written = tuple(f"{key}={_values(values)}" for key, values in (vary or {}).items())
     plan = _Plan(case, written, _table(table), drawn, asked, errors, limit, part)
     made = plan.made()
@@ -248,18 +251,21 @@ def _made(packed: bytes) -> _core.Sweep:
     return plan.made()
 
 
-def _compute(packed: bytes, part: int, folder: str, manifest: bytes) -> list[tuple[str, bytes]]:
-    """Computes a part where it is called: into the folder, where that is the same there, or else as what is given back."""
-    made = _made(packed)
-    stated = Path(folder) / "sweep.json"
-    if stated.is_file() and stated.read_bytes() == manifest:
-        made.run(folder, 1, part, True, None)
-        return []
+def _compute(packed: bytes, part: int, folder: str, manifest: bytes) -> list[tuple[str, bytes]] | str:
+    """Computes a part where it is called: into the folder, where that is the same there, or else as what is given back; or why it cannot."""
     import tempfile
 
-    with tempfile.TemporaryDirectory() as scratch:
-        made.run(scratch, 1, part, True, None)
-        return [(path.name, path.read_bytes()) for path in Path(scratch).glob("part-*.parquet")]
+    try:
+        made = _made(packed)
+        stated = Path(folder) / "sweep.json"
+        if stated.is_file() and stated.read_bytes() == manifest:
+            made.run(folder, 1, part, True, None)
+            return []
+        with tempfile.TemporaryDirectory() as scratch:
+            made.run(scratch, 1, part, True, None)
+            return [(path.name, path.read_bytes()) for path in Path(scratch).glob("part-*.parquet")]
+    except Exception as error:
+        return f"{type(error).__name__}: {error}"
 
 
 def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: Progress) -> None:
@@ -278,6 +284,8 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
     from concurrent.futures import FIRST_COMPLETED, CancelledError, wait
 
     waiting: dict[Future[Any], tuple[int, int]] = {}
+    lost: list[int] = []
+    why = ""
 
     def submit(part: int, tries: int) -> None:
         try:
@@ -296,17 +304,26 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
                     continue
                 part, tries = waiting.pop(future)
                 try:
-                    for name, data in future.result():
-                        _write(folder / name, data)
-                    done += 1
-                except (Exception, CancelledError):
+                    found = future.result()
+                except (Exception, CancelledError) as error:
                     if tries < _TRIES:
                         submit(part, tries + 1)
+                    else:
+                        lost.append(part)
+                        why = f"{type(error).__name__}: {error}"
+                    continue
+                if isinstance(found, str):
+                    raise SweepError(f"part {part} of {made.parts} failed where the client computes it: {found}")
+                for name, data in found:
+                    _write(folder / name, data)
+                done += 1
             if bar(done / made.parts, f"{done} of {made.parts} parts"):
                 return
             # Dask leaves futures of a client that has lost its scheduler without an end.
             if getattr(client, "status", None) in ("closing", "closed"):
                 return
+        if lost:
+            warn([f"the client lost {len(lost)} of {made.parts} parts {_TRIES} times, which are computed here; the last by {why}"])
     finally:
         for future in waiting:
             # Of a client whose scheduler is gone nothing can be taken back.
@@ -316,6 +333,6 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
 
 def _write(path: Path, data: bytes) -> None:
     """Writes a file whole or not at all."""
-    new = path.with_name(f".{path.name}-{os.getpid()}.new")
+    new = path.with_name(f".{path.name}-{os.getpid()}-{threading.get_ident()}.new")
     new.write_bytes(data)
     os.replace(new, path)

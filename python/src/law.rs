@@ -1,6 +1,7 @@
 //! Laws that functions of Python give.
 
 use super::value;
+use super::watch::ending;
 use flexion::command::{Command, LawState, Timing};
 use flexion_case::{Law, Start};
 use pyo3::prelude::*;
@@ -64,6 +65,9 @@ struct Function {
 
 impl Command for Function {
     fn value(&mut self, t: f64, y: &[f64], rates: &mut [f64]) -> Result<f64, String> {
+        if ending() {
+            return Err("is not asked any more: Python ends".to_owned());
+        }
         let asked = Python::attach(|py| {
             let y = PyTuple::new(py, y)?;
             let given = self.function.call1(py, (t, y))?;

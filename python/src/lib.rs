@@ -34,6 +34,8 @@ mod _core {
     #[pymodule_export]
     use super::vibration::{Diagram, Modes};
     #[pymodule_export]
+    use super::watch::end;
+    #[pymodule_export]
     use super::{program, schema, version, view};
 }
 

@@ -1,17 +1,76 @@
 //! What a computation does beside computing: it shows how far it is, and ends at Ctrl-C or where it is told to.
 
 use super::faults;
+use pyo3::exceptions::PyRecursionError;
 use pyo3::prelude::*;
+use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 /// Interval at which Python is asked.
 const INTERVAL: Duration = Duration::from_millis(50);
 
+/// Computations of laws of computations of laws …, beyond which a thread has no stack left.
+const DEEPEST: usize = 8;
+/// How long the end of the interpreter waits for computations of other threads.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+thread_local! {
+    /// Computations of this thread, each but the first by a law of the one before.
+    static DEPTH: Cell<usize> = const { Cell::new(0) };
+}
+/// Computations of all threads.
+static RUNNING: AtomicUsize = AtomicUsize::new(0);
+/// Whether the interpreter ends.
+static ENDING: AtomicBool = AtomicBool::new(false);
+
+/// One that is counted as long as it lasts.
+struct Counted;
+
+impl Counted {
+    fn new() -> Counted {
+        DEPTH.set(DEPTH.get() + 1);
+        RUNNING.fetch_add(1, Ordering::SeqCst);
+        Counted
+    }
+}
+
+impl Drop for Counted {
+    fn drop(&mut self) {
+        DEPTH.set(DEPTH.get() - 1);
+        RUNNING.fetch_sub(1, Ordering::SeqCst);
+    }
+}
+
+/// Whether the interpreter ends, and computations with it.
+pub fn ending() -> bool {
+    ENDING.load(Ordering::SeqCst)
+}
+
+/// Ends the computations of other threads before the interpreter ends, which would end these threads in the middle of Rust.
+#[pyfunction]
+pub fn end(py: Python<'_>) {
+    ENDING.store(true, Ordering::SeqCst);
+    let began = Instant::now();
+    py.detach(|| {
+        while RUNNING.load(Ordering::SeqCst) > 0 && began.elapsed() < PATIENCE {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+    });
+}
+
 /// Computes without the lock of the interpreter; a panic, which no input should reach, is an exception.
 pub fn guarded<T: Send>(py: Python<'_>, compute: impl FnOnce() -> T + Send) -> PyResult<T> {
-    let computed = py.detach(|| catch_unwind(AssertUnwindSafe(compute)));
+    if DEPTH.get() >= DEEPEST {
+        let text = format!("a law computes a case whose law computes a case …, {DEEPEST} deep");
+        return Err(PyRecursionError::new_err(text));
+    }
+    let computed = py.detach(|| {
+        let _counted = Counted::new();
+        catch_unwind(AssertUnwindSafe(compute))
+    });
     computed.map_err(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);
         let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a reason");
@@ -36,7 +95,7 @@ impl Watch {
 
     /// Goes on, or stops.
     pub fn show(&mut self, part: f64, text: impl FnOnce() -> String) -> ControlFlow<()> {
-        if self.stopped {
+        if self.stopped || ending() {
             return ControlFlow::Break(());
         }
         if self.last.elapsed() < INTERVAL {

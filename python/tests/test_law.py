@@ -263,6 +263,13 @@ WRONG: list[tuple[dict[str, Any], str]] = [
     ({"hub.torque": flexion.law(pd, ["hub.acceleration"])}, "a reaction or an acceleration"),
     ({"hub.torque": flexion.law(pd, ["hub.torque"])}, "a reaction or an acceleration"),
     ({"hub.torque": flexion.law(pd, ["hub.angel"])}, "did you mean `hub.angle`"),
+    (
+        {
+            "hub.torque": flexion.law(lambda t, s: (0.0, {"x": 0.0}), states={"x": 0.0}),
+            "hub.torque.x": flexion.law(lambda t, s: 1.0, load={"on": "tip", "force": [0, 1]}),
+        },
+        "recorded as `law.hub.torque.x`, and so is something else",
+    ),
     ({"hub.torque": flexion.sampled(0.0, lambda: pd)}, "positive and finite"),
     ({"hub.torque": flexion.sampled(1e-9, lambda: pd)}, "samples in the run"),
     ({"hub.torque": flexion.law(pd, breaks=[math.nan])}, "must be finite"),
@@ -306,7 +313,7 @@ def test_a_law_that_raises_ends_the_run_with_its_exception_as_the_cause(
     of = flexion.sampled(0.01, lambda: function) if is_sampled else flexion.law(function)
     with pytest.raises(flexion.RunError, match=r"the law `hub.torque` raised Mine: enough at t = 2\.") as found:
         free.run(errors=errors, laws={"hub.torque": of})
-    assert found.value.__cause__ is mine
+    assert found.value.__cause__ is mine and "no longer finite" not in str(found.value)
     run = found.value.result
     assert run is not None and run.status == "failed" and 1.5 < run.end_time <= 2.1 and len(run.times) > 100
 
@@ -523,3 +530,41 @@ def test_a_law_is_pickled_where_its_function_can_be() -> None:
     assert pickle.loads(pickle.dumps(of)) == of
     with pytest.raises((AttributeError, pickle.PicklingError)):
         pickle.dumps(flexion.law(lambda t, state: 1.0))
+
+
+def test_a_law_that_computes_its_own_case_ends_somewhere(free: flexion.Case) -> None:
+    deep = 0
+
+    def torque(t: float, state: State) -> float:
+        nonlocal deep
+        deep += 1
+        return float(free.run(errors="off", laws={"hub.torque": torque})["hub.angle"].final)
+
+    with pytest.raises(flexion.RunError, match="8 deep") as found:
+        free.run(errors="off", laws={"hub.torque": torque})
+    cause: BaseException | None = found.value
+    while cause is not None and not isinstance(cause, RecursionError):
+        cause = cause.__cause__
+    assert cause is not None and deep == 8
+
+
+SLEEPS = """
+import sys, threading, time, flexion
+case = flexion.Case(sys.argv[1]) | {"hub": {"inertia": 5, "motion": {"kind": "free"}}, "run.duration": 1}
+asked = threading.Event()
+def torque(t, state):
+    asked.set()
+    time.sleep(0.3)
+    return 1.0
+def compute():
+    case.run(errors="off", laws={"hub.torque": torque})
+threading.Thread(target=compute, daemon=True).start()
+asked.wait()
+print("ends")
+"""
+
+
+def test_python_may_end_while_a_law_sleeps_in_another_thread(verification: Path) -> None:
+    words = [sys.executable, "-c", SLEEPS, str(verification / "p1_spin_up_4")]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout.strip()) == (0, "ends"), done.stderr

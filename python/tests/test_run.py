@@ -210,6 +210,41 @@ def test_ctrl_c_ends_a_run_and_keeps_what_it_has(verification: Path) -> None:
     assert done.stdout.split() == ["interrupted", "stopped", "True", "True"], done.stderr
 
 
+def test_what_was_stopped_says_why_it_has_no_errors(arm: flexion.Case) -> None:
+    assert "stopped" in str(arm.run(until=2.0).trust.reason)
+    assert arm.run(errors="off").trust.reason == "no errors were asked for"
+
+
+def test_arguments_that_mean_nothing_are_refused(arm: flexion.Case) -> None:
+    for until in (float("nan"), -1.0):
+        with pytest.raises(ValueError, match="until"):
+            arm.run(until=until)
+    for step in (0.0, -0.1, float("nan")):
+        with pytest.raises(ValueError, match="step"):
+            arm.statics(step=step)
+    with pytest.raises(ValueError, match="points"):
+        arm.statics(points=0)
+    with pytest.raises(TypeError, match="list of columns"):
+        arm.linearize(outputs="tip.deflection")
+    for given in ({"seed": 3}, {"runs": 10}):
+        with pytest.raises(ValueError, match="sample"):
+            flexion.sweep(arm, {"section.modulus": [6e10]}, "tip.deflection.min", **given)
+
+
+def test_results_say_how_they_are_kept(arm: flexion.Case, tmp_path: Path) -> None:
+    run = arm.run(errors="off", until=1.0)
+    for result in (run, arm.modes(4.0, 2)):
+        with pytest.raises(TypeError, match="save"):
+            pickle.dumps(result)
+    run.save(tmp_path / "run")
+    summary = tmp_path / "run/summary.json"
+    text = summary.read_text()
+    for torn in (text[: len(text) // 2], "", "[]", "3"):
+        summary.write_text(torn)
+        with pytest.raises(ValueError, match=r"summary\.json"):
+            flexion.load(tmp_path / "run")
+
+
 def test_threads_compute_beside_each_other(arm: flexion.Case) -> None:
     expected = arm.run(errors="off")["tip.deflection"].data.tolist()
     found: list[list[float]] = []

@@ -249,7 +249,7 @@ class Careless(ThreadPoolExecutor):
 
 
 def test_tasks_that_are_lost_are_done_again(arm: flexion.Case, whole: flexion.Sweep) -> None:
-    with Careless(1) as pool:
+    with Careless(1) as pool, pytest.warns(flexion.FlexionWarning, match="the client lost 1 of 8 parts 3 times"):
         assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, client=pool, part=2))
 
 
@@ -263,6 +263,25 @@ class Closed(ThreadPoolExecutor):
 
     def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
         return Future()
+
+
+def refuses(version: str, *rest: Any) -> flexion.Case:
+    raise ValueError("the case was pickled by flexion 0.0.1, and this is another")
+
+
+def test_what_fails_where_a_client_computes_is_raised(arm: flexion.Case, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("flexion._case._unpickled", refuses)
+    monkeypatch.setattr("flexion._sweep._made", flexion._sweep._made.__wrapped__)
+    with ThreadPoolExecutor(2) as pool, pytest.raises(flexion.SweepError, match=r"failed where .*pickled by flexion 0\.0\.1"):
+        flexion.sweep(arm, VARY, QUANTITY, part=4, client=pool)
+
+
+def test_threads_share_a_folder(arm: flexion.Case, whole: flexion.Sweep, tmp_path: Path) -> None:
+    with ThreadPoolExecutor(4) as pool:
+        sweeps = [pool.submit(flexion.sweep, arm, VARY, QUANTITY, folder=tmp_path / "one", part=1, threads=2) for _ in range(4)]
+        for sweep in sweeps:
+            assert_same(whole, sweep.result())
+    assert not list((tmp_path / "one").glob(".*"))
 
 
 def test_futures_without_an_end_of_a_client_that_has_closed_are_not_waited_for(arm: flexion.Case, whole: flexion.Sweep) -> None:

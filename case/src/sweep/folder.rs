@@ -2,7 +2,7 @@
 
 use super::identity::{self, difference};
 use super::keeping::{Keeping, Totals};
-use super::part::Parts;
+use super::part::{Parts, own};
 use super::row::{Row, Status};
 use super::table::Named;
 use super::{Sweep, SweepError, csv_file, table};
@@ -321,7 +321,7 @@ fn write(
     fill: impl FnOnce(&mut BufWriter<File>) -> std::io::Result<()>,
 ) -> Result<(), SweepError> {
     let name = path.file_name().map(|name| name.to_string_lossy()).unwrap_or_default();
-    let new = path.with_file_name(format!(".{name}-{}.new", std::process::id()));
+    let new = path.with_file_name(format!(".{name}-{}.new", own()));
     let attempt = || {
         let mut file = BufWriter::new(File::create(&new)?);
         fill(&mut file)?;

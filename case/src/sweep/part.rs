@@ -5,6 +5,7 @@ use super::{Chunk, Sweep, SweepError, parquet_file, table};
 use flexion_results::VERSION;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The parts of a sweep in a folder.
 pub(super) struct Parts<'a> {
@@ -14,6 +15,12 @@ pub(super) struct Parts<'a> {
     name: String,
     /// Rows of a part.
     rows: usize,
+}
+
+/// What tells apart the files that are being written, by all threads of all processes.
+pub(super) fn own() -> String {
+    static WRITTEN: AtomicUsize = AtomicUsize::new(0);
+    format!("{}-{}", std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed))
 }
 
 /// Ending of a part, and of one that is being written.
@@ -94,9 +101,9 @@ impl<'a> Parts<'a> {
         })
     }
 
-    /// A name that no other process writes to.
+    /// A name that nobody else writes to.
     fn new_name(&self, number: usize) -> PathBuf {
-        self.folder.join(format!(".{}-{}{NEW}", self.file_name(number), std::process::id()))
+        self.folder.join(format!(".{}-{}{NEW}", self.file_name(number), own()))
     }
 
     /// Takes away what processes left that were ended as they wrote parts that are there by now.

@@ -9,6 +9,7 @@ use crate::system::{
     Frame, Jump, Limit, Mode, NotSet, Observed, Parameter, Power, Role, RowWeights, Set, Sink, Size, Slender,
     State, Steady, StiffnessForm, System, VisitRow, Weights, ordered,
 };
+use std::collections::HashSet;
 
 /// Part of the scale of a quantity by which it is moved for differences.
 const STEP: f64 = 1e-6;
@@ -34,6 +35,25 @@ pub struct Commanded {
     fault: Option<Limit>,
 }
 
+/// The column in which a law, or a state of it, is recorded.
+fn column(law: &str, state: Option<&LawState>) -> String {
+    state.map_or_else(|| format!("law.{law}"), |state| format!("law.{law}.{}", state.name))
+}
+
+/// Whether each column of the laws has a name of its own.
+fn distinct(channels: &[Channel], inputs: &[Input]) -> Result<(), CommandFault> {
+    let mut taken: HashSet<String> = channels.iter().map(|channel| channel.name.clone()).collect();
+    for input in inputs {
+        let own = std::iter::once(None).chain(input.states.iter().map(Some));
+        for column in own.map(|state| column(&input.name, state)) {
+            if let Some(column) = taken.replace(column) {
+                return Err(CommandFault::Twice { input: input.name.clone(), column });
+            }
+        }
+    }
+    Ok(())
+}
+
 impl Commanded {
     /// A model with laws, for a run until `end` \[s\].
     ///
@@ -47,6 +67,7 @@ impl Commanded {
             input.check_states()?;
         }
         let channels = inner.channels();
+        distinct(&channels, &inputs)?;
         let reactions = reactions(inner.as_mut(), &inputs, channels.len());
         let length = inner.length();
         let mut read: Vec<(usize, f64)> = Vec::new();
@@ -293,7 +314,9 @@ impl Dynamics for Commanded {
         let of_model = if i < model.v { i } else { i.saturating_sub(states) };
         state.map_or_else(
             || self.inner.unknown(of_model),
-            |(_, state)| format!("the state `{}` of a law", state.name),
+            |(_, state)| {
+                format!("state `{}` of a law, which is measured by its size {:?}", state.name, state.size)
+            },
         )
     }
 
@@ -498,12 +521,12 @@ impl Observed for Commanded {
             let value = crate::profile::Profile::value(&**signal, s.time());
             sink.put(value, || {
                 let meaning = format!("what the law `{name}` gives");
-                Channel::new(Role::Secondary, format!("law.{name}"), *unit, meaning)
+                Channel::new(Role::Secondary, column(name, None), *unit, meaning)
             });
             for (state, value) in states.iter().zip(&self.seen.laws(s)[law.states()]) {
                 sink.put(*value, || {
                     let meaning = format!("the state `{}` of the law `{name}`", state.name);
-                    Channel::new(Role::Secondary, format!("law.{name}.{}", state.name), "", meaning)
+                    Channel::new(Role::Secondary, column(name, Some(state)), "", meaning)
                 });
             }
         }

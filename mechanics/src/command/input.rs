@@ -151,6 +151,16 @@ pub enum CommandFault {
         /// What is wrong.
         why: String,
     },
+    /// A column of the law has the name of another.
+    #[error(
+        "the law `{input}` is recorded as `{column}`, and so is something else: give it, or its state, another name"
+    )]
+    Twice {
+        /// Name of the law.
+        input: String,
+        /// The column.
+        column: String,
+    },
     /// There are too many samples.
     #[error(
         "the law `{input}` with the period {period} s has {samples:.1e} samples in the run, and at most {most:.0e} are taken"

@@ -84,5 +84,9 @@ fn because(reason: &Option<Box<Limit>>) -> String {
 pub(super) fn failed(system: &mut dyn System, state: &State, error: StepError) -> RunError {
     // What the error says already is not said again.
     let reason = system.explain(state).filter(|reason| !error.to_string().contains(&reason.to_string()));
+    // A law that gives nothing leaves no numbers; it is the reason, whatever the step says of them.
+    if let Some(reason @ Limit::Command { .. }) = reason {
+        return RunError::Ended { time: state.t, reason };
+    }
     RunError::Step { error, reason: reason.map(Box::new) }
 }
