@@ -77,4 +77,14 @@ fn an_arm_that_lies_down_comes_to_rest_on_the_floor() {
     }
     let speed = run.column("tip.deflection_velocity").last().copied().unwrap();
     assert!(speed.abs() < 1e-6, "{speed}");
+    // Dampers and contacts take no more than gravity gives, in bursts neither; a tolerance of 1e-4 leaves 1.4e-5 J before the first of these.
+    let column = |name: &str| run.column(name);
+    let (total, dissipated, contact) =
+        (column("energy.total"), column("energy.dissipated"), column("energy.contact_loss"));
+    let given = total[0] - total.last().unwrap();
+    for ((d, c), e) in dissipated.iter().zip(&contact).zip(&total) {
+        assert!(*c >= 0.0 && *d >= 0.0 && d + c <= (total[0] - e) + 2e-5, "{d} {c} of {}", total[0] - e);
+    }
+    let taken = (dissipated.last().unwrap() + contact.last().unwrap()) / given;
+    assert!(taken > 0.9, "{taken}");
 }

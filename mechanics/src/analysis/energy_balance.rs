@@ -20,6 +20,9 @@
 //! behind a jump; the end of a step takes the left limit. The balance closes to the order of the method (tested), and
 //! what is left is the error of the run: its truncation, and the numerical dissipation of methods that have some.
 //!
+//! In [bursts](super::transient) the steps of a nonsmooth method follow contacts that chatter, and do not resolve the vibrations that impacts excite and dampers take
+//! within a step: the power at both ends of it is too large. Where the balance would leave more energy than there is, dampers have taken that much less.
+//!
 //! A nonsmooth method knows no time of an impact within its step. It counts at the end of the step, and so does what it loses:
 //! states recorded inside the step are those before the impact.
 
@@ -120,6 +123,10 @@ pub(super) struct Integral {
     nodes: &'static [f64],
     powers: [Power; MOST],
     gain: Gain,
+    /// In a burst, the imbalance at the last accepted step, and what dampers have taken less than by their power \[J\].
+    burst: Option<[f64; 2]>,
+    /// The latter in the step that was entered.
+    less: f64,
     /// Dense output.
     middle: State,
 }
@@ -164,7 +171,18 @@ impl Integral {
         let (nodes, powers) = (TRAPEZIUM, [power; MOST]);
         let gain = Gain { gravity: [energy.gravity; 2], ..Gain::default() };
         let end = (balance, power);
-        Integral { order, balance, power, end, nodes, powers, gain, middle: state.clone() }
+        Integral {
+            order,
+            balance,
+            power,
+            end,
+            nodes,
+            powers,
+            gain,
+            burst: None,
+            less: 0.0,
+            middle: state.clone(),
+        }
     }
 
     /// At the last accepted step.
@@ -191,6 +209,7 @@ impl Integral {
             for (weight, power) in weights.iter().zip(&self.powers).take(self.nodes.len()) {
                 balance.add(h * weight, power);
             }
+            balance.dissipated -= self.less * (t - from.t) / h;
         }
         balance
     }
@@ -210,7 +229,7 @@ impl Integral {
             3..=4 => SIMPSON,
             _ => RADAU,
         };
-        let weighed = recorded || integrator.counters().steps.is_multiple_of(WEIGHED);
+        let weighed = recorded || self.burst.is_some() || integrator.counters().steps.is_multiple_of(WEIGHED);
         let (energy, at_end) = if weighed {
             let (energy, power) = system.energy_and_power(to);
             (Some(energy), power)
@@ -227,8 +246,16 @@ impl Integral {
                 system.power(&self.middle)
             };
         }
+        self.less = 0.0;
         let mut end = self.until((from, to), to.t);
         end.contact += lost;
+        if let (Some([before, less]), Some(energy)) = (&mut self.burst, &energy) {
+            let excess = end.imbalance(energy.total()) - *before;
+            self.less = excess.clamp(0.0, (end.dissipated - self.balance.dissipated).max(0.0));
+            end.dissipated -= self.less;
+            *less += self.less;
+            *before = end.imbalance(energy.total());
+        }
         self.end = (end, at_end);
         if let Some(energy) = energy {
             self.gain.enter(&energy, self.end.0.imbalance(energy.total()));
@@ -244,6 +271,16 @@ impl Integral {
     pub(super) fn add_impulse(&mut self, work: f64, lost: f64) {
         self.balance.drive += work;
         self.balance.contact += lost;
+    }
+
+    /// Begins a burst at a state.
+    pub(super) fn begin_burst(&mut self, system: &mut dyn System, state: &State) {
+        self.burst = Some([self.balance.imbalance(system.energy(state).total()), 0.0]);
+    }
+
+    /// Ends it: what dampers have taken less than by their power \[J\].
+    pub(super) fn end_burst(&mut self) -> f64 {
+        self.burst.take().map_or(0.0, |[_, less]| less)
     }
 
     /// Takes the power behind a jump.

@@ -34,9 +34,6 @@ pub struct Columns {
     pub modal_shares: bool,
 }
 
-/// An imbalance of the energy, over that of bursts, up to which it is that.
-const SAME: f64 = 1.1;
-
 /// Bursts of contacts that chattered, all together.
 #[derive(Clone, Copy, Debug, Default)]
 struct Chatter {
@@ -44,7 +41,7 @@ struct Chatter {
     duration: f64,
     bursts: u64,
     step: f64,
-    off: f64,
+    less: f64,
 }
 
 /// Records the channels of a system and what every run has: the total energy, the size of the step and
@@ -199,19 +196,18 @@ impl<'a> Recorder<'a> {
     fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
         let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
         let doubtful = self.imbalance().or_else(|| self.lost());
-        // By what the balance is off in bursts is said of them.
-        let known = self.chatter.map_or(0.0, |of| SAME * of.off).max(rounding_energy(system, state));
+        let known = rounding_energy(system, state);
         let doubtful = doubtful.filter(|(size, _)| *size > known).map(|(_, warning)| warning);
         let stepped_over = self.stepped_over.clone();
         let stepped_over = stepped_over.map(|(time, contact)| Warning::SteppedOver { time, contact });
         let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
         let coarse = coarse.map(|steps| Warning::FewStepsAPeriod { steps, wanted: STEPS_A_PERIOD });
-        let chatter = self.chatter.map(|Chatter { begin, duration, bursts, step, off }| Warning::Chatter {
+        let chatter = self.chatter.map(|Chatter { begin, duration, bursts, step, less }| Warning::Chatter {
             begin,
             duration,
             bursts,
             step,
-            off,
+            less,
         });
         let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
         let of_contacts = stepped_over.into_iter().chain(chatter).chain(grinds);
@@ -305,12 +301,12 @@ impl Observer for Recorder<'_> {
         }
     }
 
-    fn burst(&mut self, begin: f64, end: f64, step: f64, off: f64) {
+    fn burst(&mut self, begin: f64, end: f64, step: f64, less: f64) {
         let all = self.chatter.get_or_insert(Chatter { begin, ..Chatter::default() });
         all.duration += end - begin;
         all.bursts += 1;
         all.step = all.step.max(step);
-        all.off += off;
+        all.less += less;
     }
 
     fn grinds(&mut self, time: f64, mean: f64) {

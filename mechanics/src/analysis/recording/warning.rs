@@ -49,8 +49,8 @@ pub enum Warning {
     /// Contacts chattered, and were followed by steps of a nonsmooth method.
     #[error(
         "contacts chatter from t = {begin:.6} s on, faster than their events can be found one by one: {duration:.4} s of the run, in \
-         {bursts} burst{}, are computed by nonsmooth steps of at most {step:.2e} s, to which the times of impacts in them are known, and whose \
-         balance of energy is off by {off:.2e} J, which that of the run leaves out",
+         {bursts} burst{}, are computed by nonsmooth steps of at most {step:.2e} s, to which the times of impacts in them are known; they do not resolve what \
+         is fast, of which dampers take {less:.2e} J less than by their power, as the balance of energy says",
         if *bursts == 1 { "" } else { "s" }
     )]
     Chatter {
@@ -62,8 +62,8 @@ pub enum Warning {
         bursts: u64,
         /// Longest step \[s\].
         step: f64,
-        /// By what the balance of energy of the steps is off \[J\].
-        off: f64,
+        /// What dampers have taken less than by their power \[J\].
+        less: f64,
     },
     /// Events of continuous forces follow each other fast.
     #[error(

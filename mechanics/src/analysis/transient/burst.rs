@@ -5,8 +5,8 @@
 //! impact is known to a step h, its place to h|ġ|, and of the rebounds within a step those that would follow are lost, ½ (eġ)²/W each. These bounds are
 //! added up as what [bounces not followed](crate::contact::Neglected) would have done.
 //!
-//! Steps begin short and are doubled, for what is fast in a burst is dissipated first, and halved where they do not converge. What the balance of energy does not explain of
-//! them, of vibrations and forces of damping that they do not resolve, is left out of the balance of the run, and shown with the burst.
+//! Steps begin short and are doubled, for what is fast in a burst is dissipated first, and halved where they do not converge. What dampers take in them of vibrations that
+//! they do not resolve follows from the [balance of energy](super::super::energy_balance), and is shown with the burst.
 //!
 //! The run comes back to its own method when no contact has opened or closed for so many steps, twice as many each time; where it cannot, for rows of
 //! closed contacts depend on each other, it goes on with nonsmooth steps.
@@ -40,21 +40,19 @@ impl Run {
         let step = plan.contact_step.unwrap_or((PART * longest).max(mean));
         (self.bursts.longest, self.bursts.step, self.bursts.count) = (step, FIRST_PART * step, 0);
         let begin = state.t;
-        let before = self.imbalance(system, state);
         let mut own = (self.contacts.take(), self.control.take(), self.segment.take());
         if let Some(contacts) = &mut own.0 {
             self.bursts.add(std::mem::take(&mut contacts.neglected));
         }
         self.contacts = Contacts::new(system, state).and_then(Contacts::of_indicators);
+        if let Some(balance) = &mut self.balance {
+            balance.begin_burst(system, state);
+        }
         let within = Plan { step: Some(self.bursts.step), longest_step: None, contact_step: None, ..*plan };
         let result = self.nonsmooth(system, state, &within, observer, integrator, own.0);
         (self.control, self.segment) = (own.1, own.2);
-        // Before the burst and behind it the balance is the same.
-        let off = before - self.imbalance(system, state);
-        if let Some(balance) = &mut self.balance {
-            balance.add_impulse(0.0, off);
-        }
-        observer.burst(begin, state.t, step, off.abs());
+        let less = self.balance.as_mut().map_or(0.0, super::Integral::end_burst);
+        observer.burst(begin, state.t, step, less);
         let (ended, contacts) = result?;
         self.contacts = contacts;
         if ended.is_some() {
@@ -70,12 +68,6 @@ impl Run {
         }
         self.begins = true;
         Ok(None)
-    }
-
-    /// What the balance of energy does not explain \[J\], where it is kept.
-    fn imbalance(&self, system: &mut dyn System, state: &State) -> f64 {
-        let balance = self.balance.as_ref().map(super::Integral::balance);
-        balance.map_or(0.0, |balance| balance.imbalance(system.energy(state).total()))
     }
 
     /// The steps of a burst, and the way back to the method of the run, with its contacts.

@@ -98,9 +98,9 @@ pub trait Observer {
     /// method locates no events, and a point may have passed through an obstacle.
     fn stepped_over(&mut self, _time: f64, _row: usize) {}
 
-    /// From `begin` to `end` contacts chattered, and were followed by steps of a nonsmooth method that are not longer than `step` \[s\]; their balance of
-    /// energy is off by `off` \[J\], which the balance of the run leaves out.
-    fn burst(&mut self, _begin: f64, _end: f64, _step: f64, _off: f64) {}
+    /// From `begin` to `end` contacts chattered, and were followed by steps of a nonsmooth method that are not longer than `step` \[s\]; dampers
+    /// have taken `less` \[J\] less than by their power at the ends of these.
+    fn burst(&mut self, _begin: f64, _end: f64, _step: f64, _less: f64) {}
 
     /// At `time` continuous forces of contacts, or what the model indicates, begin and end so fast, with the time `mean` \[s\] between, that the run has more events
     /// before it than it is likely to come through.
