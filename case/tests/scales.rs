@@ -260,3 +260,44 @@ fn beams_vibrate_alike_in_any_units() {
         }
     }
 }
+
+/// A body on a joint at the tip, which nothing turns back: its motion without stiffness is told from rounding of the forces of the joint under gravity, and
+/// the vibrations behind it are those of any size.
+#[test]
+fn a_body_that_turns_freely_leaves_the_vibrations_of_any_size() {
+    let of = |s: f64, joint: &str, shear: bool| {
+        let request = ModesRequest {
+            speed: 0.0,
+            count: 5,
+            free_hub: false,
+            units: Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS },
+            film: false,
+        };
+        let section = format!("section={{kind='circle',modulus=7e10,density=2700,radius={:e}}}", 0.02 * s);
+        let case = format!(
+            "gravity=[0,{:e},0]\n[[beam]]\nname='arm'\nlength={s:e}\nelements=6\nroot='clamped'\nshear={shear}\n{section}\n{}\
+             [[joint]]\nkind='{joint}'\nbetween=['arm.tip','weight']\n{}[run]\nduration=0\n",
+            -9.81 / s,
+            body(s, "weight", [1.0, 0.0]),
+            if joint == "spherical" { "" } else { "axis=[0,0,1]\n" }
+        );
+        let modes =
+            reading(&case, &[]).modes(&request).unwrap_or_else(|error| panic!("{error}\n{case}")).modes;
+        modes.modes.iter().map(|mode| mode.frequency() * s).collect::<Vec<f64>>()
+    };
+    for (joint, shear, free) in
+        [("revolute", true, 1), ("revolute", false, 1), ("spherical", true, 3), ("spherical", false, 3)]
+    {
+        let expected = of(1.0, joint, shear);
+        assert_eq!(
+            expected.iter().filter(|frequency| **frequency == 0.0).count(),
+            free,
+            "{joint} {shear}: {expected:?}"
+        );
+        for s in [1e-3, 1e-2, 0.1, 0.3, 3.0, 10.0, 30.0, 100.0, 1e3] {
+            let found = of(s, joint, shear);
+            let alike = found.iter().zip(&expected).all(|(x, y)| (x - y).abs() <= 1e-7 * y);
+            assert!(found.len() == 5 && alike, "{joint} {shear} {s} m: {found:?} {expected:?}");
+        }
+    }
+}

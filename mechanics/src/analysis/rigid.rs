@@ -27,11 +27,16 @@ const DEVIATIONS: f64 = 3.0;
 /// elimination makes rounding errors grow.
 pub(super) fn has_rigid_motions(pencil: &mut Pencil, system: &mut dyn System, state: &State) -> bool {
     let Some(softest) = pencil.softest() else { return true };
-    if softest.unstable || !softest.is_uncertain() {
-        return softest.unstable;
+    if softest.unstable {
+        return true;
     }
-    let form = strain_form(system, state, vec![softest.motion[..state.v.len()].to_vec()]);
-    form.is_none_or(|form| form.is_zero_but_for(STRAINED * softest.rounding))
+    let motion = softest.motion[..state.v.len()].to_vec();
+    let of_joints = f64::EPSILON * joint_moment(system, state) * angle(&motion, system.scales()).powi(2);
+    if softest.rounding + of_joints <= UNCERTAIN * softest.energy {
+        return false;
+    }
+    let form = strain_form(system, state, vec![motion]);
+    form.is_none_or(|form| form.is_zero_but_for(STRAINED * softest.rounding + of_joints))
 }
 
 /// Whether a motion has no stiffness by the strains, or a frequency below `rigid` [rad/s]; true where the system has its stiffness as a matrix only.
@@ -61,6 +66,25 @@ impl StrainForm {
     }
 }
 
+/// Largest of the forces Gᵀλ of joints, each times the scale of its unknown \[N m\]. Rounding of the multipliers, a part of this, is in the stiffness
+/// Σ λᵀ ∂²g/∂q² where nothing else is.
+fn joint_moment(system: &mut dyn System, state: &State) -> f64 {
+    let mut free = state.clone();
+    free.lambda.fill(0.0);
+    let [with, without] = [state, &free].map(|state| {
+        let mut forces = vec![0.0; state.v.len()];
+        system.residual(state, &mut forces);
+        forces
+    });
+    let forces = with.iter().zip(&without).zip(system.scales());
+    forces.fold(0.0, |most, ((with, without), scale)| most.max(((with - without) * scale).abs()))
+}
+
+/// Largest entry of a motion over the scale of its unknown.
+fn angle(x: &[f64], scales: &[f64]) -> f64 {
+    x.iter().zip(scales).map(|(x, s)| (x / s).abs()).fold(0.0, f64::max)
+}
+
 /// Sum of the forms of motions; `None` where the system has its stiffness as a matrix only.
 ///
 /// Along a rotation by an angle ϑ what is at a distance s moves by ϑ²s/2 to second order, and forces r that an equilibrium leaves work on it: the form of a
@@ -71,8 +95,7 @@ fn strain_form(system: &mut dyn System, state: &State, motions: Vec<Vec<f64>>) -
     system.residual(state, &mut forces);
     let scales = system.scales();
     let moment = forces.iter().zip(scales).map(|(r, s)| (r * s).powi(2)).sum::<f64>().sqrt();
-    let angle = |x: &Vec<f64>| x.iter().zip(scales).map(|(x, s)| (x / s).abs()).fold(0.0, f64::max);
-    let square: f64 = motions.iter().map(|x| angle(x).powi(2)).sum();
+    let square: f64 = motions.iter().map(|x| angle(x, scales).powi(2)).sum();
     let sum = |part: fn(&StiffnessForm) -> f64| forms.iter().map(part).sum::<f64>();
     let of = StiffnessForm { value: sum(|form| form.value), rounding: sum(|form| form.rounding) };
     Some(StrainForm { of, left: DEVIATIONS * moment * square })
