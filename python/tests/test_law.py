@@ -413,9 +413,9 @@ def test_no_file_holds_a_law_and_nothing_goes_on_from_its_run(free: flexion.Case
 
 def test_a_tolerance_is_reached_with_laws(free: flexion.Case) -> None:
     coarse = free.with_("basis.elements", 2)
-    run = coarse.run(tolerance="1e-7 rad", quantity="hub.angle", laws={"hub.torque": flexion.law(pd, READS)})
+    run = coarse.run(tolerance="1e-5 rad", quantity="hub.angle", laws={"hub.torque": flexion.law(pd, READS)})
     error = run["hub.angle"].max.error
-    assert error is not None and error < 1e-7
+    assert error is not None and error < 1e-5
     assert "law.hub.torque" in run and run.case != coarse
 
 
