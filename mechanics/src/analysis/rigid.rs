@@ -20,9 +20,6 @@ const NEAREST: usize = 6;
 /// Energy of the strains of a motion, over the rounding of the energy by an assembled stiffness, up to which it is rigid.
 const STRAINED: f64 = 1e-3;
 
-/// Rounding of an eigenvalue as it is seen from a shift, of which a solution loses two digits.
-const LOST: f64 = 100.0 * f64::EPSILON;
-
 /// Standard deviations of a sum of random signs within which it is.
 const DEVIATIONS: f64 = 3.0;
 
@@ -30,11 +27,16 @@ const DEVIATIONS: f64 = 3.0;
 /// elimination makes rounding errors grow.
 pub(super) fn has_rigid_motions(pencil: &mut Pencil, system: &mut dyn System, state: &State) -> bool {
     let Some(softest) = pencil.softest() else { return true };
-    if softest.unstable || !softest.is_uncertain() {
-        return softest.unstable;
+    if softest.unstable {
+        return true;
     }
-    let form = strain_form(system, state, vec![softest.motion[..state.v.len()].to_vec()]);
-    form.is_none_or(|form| form.is_zero_but_for(STRAINED * softest.rounding))
+    let motion = softest.motion[..state.v.len()].to_vec();
+    let of_joints = f64::EPSILON * joint_moment(system, state) * angle(&motion, system.scales()).powi(2);
+    if softest.rounding + of_joints <= UNCERTAIN * softest.energy {
+        return false;
+    }
+    let form = strain_form(system, state, vec![motion]);
+    form.is_none_or(|form| form.is_zero_but_for(STRAINED * softest.rounding + of_joints))
 }
 
 /// Whether a motion has no stiffness by the strains, or a frequency below `rigid` [rad/s]; true where the system has its stiffness as a matrix only.
@@ -64,6 +66,25 @@ impl StrainForm {
     }
 }
 
+/// Largest of the forces Gᵀλ of joints, each times the scale of its unknown \[N m\]. Rounding of the multipliers, a part of this, is in the stiffness
+/// Σ λᵀ ∂²g/∂q² where nothing else is.
+fn joint_moment(system: &mut dyn System, state: &State) -> f64 {
+    let mut free = state.clone();
+    free.lambda.fill(0.0);
+    let [with, without] = [state, &free].map(|state| {
+        let mut forces = vec![0.0; state.v.len()];
+        system.residual(state, &mut forces);
+        forces
+    });
+    let forces = with.iter().zip(&without).zip(system.scales());
+    forces.fold(0.0, |most, ((with, without), scale)| most.max(((with - without) * scale).abs()))
+}
+
+/// Largest entry of a motion over the scale of its unknown.
+fn angle(x: &[f64], scales: &[f64]) -> f64 {
+    x.iter().zip(scales).map(|(x, s)| (x / s).abs()).fold(0.0, f64::max)
+}
+
 /// Sum of the forms of motions; `None` where the system has its stiffness as a matrix only.
 ///
 /// Along a rotation by an angle ϑ what is at a distance s moves by ϑ²s/2 to second order, and forces r that an equilibrium leaves work on it: the form of a
@@ -74,8 +95,7 @@ fn strain_form(system: &mut dyn System, state: &State, motions: Vec<Vec<f64>>) -
     system.residual(state, &mut forces);
     let scales = system.scales();
     let moment = forces.iter().zip(scales).map(|(r, s)| (r * s).powi(2)).sum::<f64>().sqrt();
-    let angle = |x: &Vec<f64>| x.iter().zip(scales).map(|(x, s)| (x / s).abs()).fold(0.0, f64::max);
-    let square: f64 = motions.iter().map(|x| angle(x).powi(2)).sum();
+    let square: f64 = motions.iter().map(|x| angle(x, scales).powi(2)).sum();
     let sum = |part: fn(&StiffnessForm) -> f64| forms.iter().map(part).sum::<f64>();
     let of = StiffnessForm { value: sum(|form| form.value), rounding: sum(|form| form.rounding) };
     Some(StrainForm { of, left: DEVIATIONS * moment * square })
@@ -118,10 +138,8 @@ pub(super) fn certain_directions(
     let Some(mut pencil) = shifted(&all, multipliers)? else { return Ok(0) };
     let there = mass.order() - 2 * multipliers;
     let (mut certain, mut rounded) = (0, 0);
-    // λ² is known to a part of the square of the shift from which it is seen.
-    let unseen = LOST * pencil.shift().powi(2);
     for pair in pencil.pairs((NEAREST + RIGID_MOTIONS).min(there), &[])? {
-        if pencil.rounding(pair.value, &pair.vector) >= UNCERTAIN || pair.value.norm_sqr() <= unseen {
+        if pencil.rounding(pair.value, &pair.vector) >= UNCERTAIN {
             rounded += 1;
         } else if pair.value.re > 0.0 {
             certain += 1;

@@ -7,9 +7,6 @@ use crate::system::{State, System, Weights};
 /// Part of a row of a joint in the plane of a system, over that across, that is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Rounding of multipliers, of which a solution loses two digits, over the largest force.
-const LOST: f64 = 100.0 * f64::EPSILON;
-
 /// The mass M = ∂r/∂a at a state, hidden unknowns eliminated.
 pub fn mass(system: &mut dyn System, state: &State) -> Matrix {
     tangent(system, state, Weights::new(1.0, 0.0, 0.0), 0)
@@ -25,40 +22,9 @@ pub(super) fn stiffness(system: &mut dyn System, state: &State) -> Matrix {
 pub(super) fn matrices(system: &mut dyn System, state: &State) -> ([Matrix; 3], usize) {
     let mut of = |a, v, q| tangent(system, state, Weights::new(a, v, q), 1);
     let mut all = [of(1.0, 0.0, 0.0), of(0.0, 1.0, 0.0), of(0.0, 0.0, 1.0)];
-    clear_rounding(system, state, &mut all[2]);
     let multipliers = joints::add(system, state, state.v.len(), &mut all[2]);
     hold_across(&system.across(), &mut all, state.v.len());
     (all, multipliers)
-}
-
-/// Clears the entries of K that are rounding of multipliers. Joints add λᵀ ∂²g/∂q² to it, and rounding of λ is a part ε = 100 machine epsilons of the largest force Gᵀλ: where nothing
-/// else turns a body back, this would be its stiffness, of either sign. With the scales s of the unknowns |Kᵢⱼ| sᵢ sⱼ ≤ ε max |(Gᵀλ)ₖ| sₖ is none.
-fn clear_rounding(system: &mut dyn System, state: &State, stiffness: &mut Matrix) {
-    if state.lambda.iter().all(|multiplier| *multiplier == 0.0) {
-        return;
-    }
-    let mut free = state.clone();
-    free.lambda.fill(0.0);
-    let [with, without] = [state, &free].map(|state| {
-        let mut forces = vec![0.0; state.v.len()];
-        system.residual(state, &mut forces);
-        forces
-    });
-    let scales = system.scales();
-    let forces =
-        with.iter().zip(&without).zip(scales).map(|((with, without), s)| ((with - without) * s).abs());
-    let rounding = LOST * forces.fold(0.0, f64::max);
-    for (j, own) in scales.iter().enumerate() {
-        let mut cleared = Vec::new();
-        stiffness.column(j, |i, x| {
-            if let Some(other) = scales.get(i)
-                && x.abs() * own * other <= rounding
-            {
-                cleared.push((i, x));
-            }
-        });
-        cleared.into_iter().for_each(|(i, x)| stiffness.add(i, j, -x));
-    }
 }
 
 /// Number of independent velocities in the plane of a system, of all without one, with the [stiffness](matrices) K of its unknowns.
