@@ -23,6 +23,7 @@ __all__ = [
     "Stored",
     "Sweep",
     "compare",
+    "end",
     "item",
     "program",
     "runs_figure",
