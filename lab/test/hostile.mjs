@@ -82,7 +82,7 @@ for (let k = 0; k < Number(count); k++) {
   await page.evaluate((link) => (location.hash = `#${link}`), link);
   await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 30)));
   try {
-    await page.waitForFunction(() => document.querySelector("#stop").hidden, undefined, { timeout: 40_000, polling: 50 });
+    await page.waitForFunction(() => document.querySelector("#stop").hidden, undefined, { timeout: 120_000, polling: 50 });
   } catch {
     throw new Error(`link ${k} of kind ${k % makers.length} has no end: ${link.slice(0, 200)}`);
   }
