@@ -311,6 +311,13 @@ fn a_part_that_ends_at_any_byte_is_no_part_and_one_that_was_not_renamed_is_made_
             assert_eq!(sweep.kept_parts(folder.path()), [0], "zeros behind {end} of {} bytes", whole.len());
         }
     }
+    // Nor is one of which a bit has changed, wherever it is.
+    for at in 0..whole.len() {
+        let mut flipped = whole.clone();
+        flipped[at] ^= 1 << (at % 8);
+        fs::write(&parts[1], &flipped).unwrap();
+        assert_eq!(sweep.kept_parts(folder.path()), [0], "bit {} of byte {at}", at % 8);
+    }
     let name = parts[1].file_name().unwrap().to_str().unwrap();
     let left = folder.path().join(format!(".{name}-1.new"));
     fs::remove_file(&parts[1]).unwrap();

@@ -7,6 +7,8 @@
 """
 
 import atexit as _atexit
+import os as _os
+from typing import Any as _Any
 
 from . import _core as _engine
 from ._case import Advice, Case
@@ -37,6 +39,19 @@ __version__ = version()
 
 # Threads that Python ends while they compute would end the process.
 _atexit.register(_engine.end)
+# The child of a process has the thread alone that forked.
+if hasattr(_os, "register_at_fork"):
+    _os.register_at_fork(after_in_child=_engine.forked)
+
+
+def __getattr__(name: str) -> _Any:
+    # The names of keys are many, and are not needed to run.
+    if name == "keys":
+        import importlib
+
+        return importlib.import_module(".keys", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
 
 __all__ = [
     "Advice",

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
 from . import _core
-from ._errors import Interrupted, RunError, warn
+from ._errors import FlexionWarning, Interrupted, RunError, warn
 from ._law import Function, Law, given
 from ._linear import Linear, Stiffness
 from ._progress import Event, Progress
@@ -159,15 +161,18 @@ class Case:
         if by_law is not None and (isinstance(by_law, KeyboardInterrupt) or not isinstance(by_law, Exception)):
             raised = by_law
         _raise(raised, run)
-        warn(run.warnings)
+        why = run.message or "the run failed" if run.status == "failed" else None
         if by_law is not None:
-            said = run.message if run.status == "failed" else None
-            raise RunError(said or f"a law raised {by_law!r} in a run that estimates the errors", run) from by_law
-        if run.status == "failed":
-            raise RunError(run.message or "the run failed", run)
-        if core.refused is not None and run.status != "stopped":
-            raise RunError(core.refused, run)
-        return run
+            why = why or f"a law raised {by_law!r} in a run that estimates the errors"
+        elif core.refused is not None and run.status != "stopped":
+            why = why or core.refused
+        if why is None:
+            warn(run.warnings)
+            return run
+        # Where warnings are errors, the run that broke down is the greater one.
+        with suppress(FlexionWarning):
+            warn(run.warnings)
+        raise RunError(why, run) from by_law
 
     def modes(self, speed: float = 0.0, count: int = 10, *, free_hub: bool = False, unit: str = "rad/s") -> Modes:
         """The modes of small vibrations about the equilibrium in steady rotation at a speed [rad/s].
@@ -196,6 +201,10 @@ class Case:
         Resonances are speeds at which a frequency is within ``margin`` percent of kΩ, k = 1 … ``revolutions``. ``threads`` is 0 for
         one a processor; the results do not depend on it.
         """
+        if not 0 <= revolutions <= 1000:
+            raise ValueError(f"`revolutions` is {revolutions} and must be from 0 to 1000")
+        if not 0.0 <= margin < 100.0:
+            raise ValueError(f"`margin` is {margin} % and must be from 0 to less than 100")
         bar = Progress(progress, stop)
         listed = [float(speed) for speed in speeds]
         try:
@@ -223,10 +232,12 @@ class Case:
 
         ``step`` is the longest step, of displacements over the length of the beam and of the load factor; ``points`` the most equilibria.
         """
-        if not step > 0.0:
-            raise ValueError(f"`step` is {step} and must be positive")
-        if not points >= 1:
-            raise ValueError(f"`points` is {points} and must be at least 1")
+        if not 0.0 < to < math.inf:
+            raise ValueError(f"`to` is {to} and must be positive and finite")
+        if not 0.0 < step < math.inf:
+            raise ValueError(f"`step` is {step} and must be positive and finite")
+        if not 2 <= points <= 1_000_000:
+            raise ValueError(f"`points` is {points} and must be from 2 to 1000000")
         bar = Progress(progress, stop)
         try:
             core, raised = self._case.statics(to, step, points, errors, bar)

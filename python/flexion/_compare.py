@@ -24,8 +24,8 @@ class Difference:
     """Its root mean square."""
     peak: float
     """Largest absolute value of the first run."""
-    relative: float
-    """Largest difference over the scale of the column."""
+    relative: float | None
+    """Largest difference over the scale of the column; ``None`` of a column that is zero."""
     unit: str
     """Unit of the column."""
 
@@ -59,7 +59,7 @@ class Comparison(Mapping[str, Difference]):
         worst = max(self._differences.items(), key=lambda item: item[1].relative or 0.0, default=None)
         if worst is None:
             return "<flexion.Comparison: no columns in common>"
-        return f"<flexion.Comparison: {len(self)} columns, the largest relative difference {worst[1].relative:.3e} of {worst[0]}>"
+        return f"<flexion.Comparison: {len(self)} columns, the largest relative difference {worst[1].relative or 0.0:.3e} of {worst[0]}>"
 
 
 def compare(first: Run, second: Run, *columns: str) -> Comparison:

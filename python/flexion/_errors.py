@@ -58,6 +58,10 @@ class RunError(FlexionError):
         super().__init__(message)
         self.result = result
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # A run is not pickled.
+        return type(self), (str(self),)
+
 
 class AnalysisError(FlexionError):
     """An analysis without result: no modes, no diagram, no advice, no equilibrium."""
@@ -73,6 +77,9 @@ class SweepError(FlexionError):
         super().__init__(message)
         self.result = result
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (str(self), self.result)
+
 
 class InternalError(FlexionError, RuntimeError):
     """A fault of the program, which no case should reach: please report it."""
@@ -87,6 +94,10 @@ class Interrupted(KeyboardInterrupt):
     def __init__(self, message: str = "interrupted", result: Any = None) -> None:
         super().__init__(message)
         self.result = result
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Results are not pickled but for sweeps.
+        return type(self), (str(self),)
 
 
 class FlexionWarning(UserWarning):

@@ -23,6 +23,7 @@ class Progress:
 
     def __init__(self, show: bool | None, stop: Event | Callable[[], bool] | None) -> None:
         self._asked = stop
+        self._stopped = False
         self._began = time.monotonic()
         self._drawn = False
         self._handle: Any = None
@@ -33,9 +34,9 @@ class Progress:
         """Whether the computation is to stop."""
         if self._show and time.monotonic() - self._began > _FIRST:
             self._draw(min(max(part, 0.0), 1.0), text)
-        if self._asked is None:
-            return False
-        return self._asked.is_set() if hasattr(self._asked, "is_set") else bool(self._asked())
+        if self._asked is not None and not self._stopped:
+            self._stopped = self._asked.is_set() if hasattr(self._asked, "is_set") else bool(self._asked())
+        return self._stopped
 
     def _draw(self, part: float, text: str) -> None:
         done = round(part * _WIDTH)

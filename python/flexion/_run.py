@@ -292,7 +292,7 @@ class Run(Mapping[str, Column]):
         rows: list[tuple[str, ...]] = [("", "unit", "min", "at t [s]", "max", "at t [s]", "last")]
         for column in self._principal():
             least, most = column.min, column.max
-            ends = (least._short(), f"{least.time:.4f}", most._short(), f"{most.time:.4f}", column.final._short())
+            ends = (least._short(), _time(least), most._short(), _time(most), column.final._short())
             rows.append((column.name, column.unit or "1", *ends))
         return rows
 
@@ -301,6 +301,10 @@ class Run(Mapping[str, Column]):
 
     def _repr_html_(self) -> str:
         return html_table(self._table(), repr(self)[1:-1], self.warnings)
+
+
+def _time(value: Value) -> str:
+    return "" if value.time is None else f"{value.time:.4f}"
 
 
 def _events(path: Path) -> tuple[Event, ...]:

@@ -170,7 +170,7 @@ def sweep(
         place = Path(scratch) / "sweep" if folder is None else Path(folder)
         try:
             if client is not None:
-                _elsewhere(plan, made, place, client, bar)
+                _elsewhere(plan, made, place, client, keep_going, bar)
             outcome, raised = made.run(place, threads, None, keep_going, bar)
         except KeyboardInterrupt as interrupt:
             raised, outcome = interrupt, None
@@ -220,7 +220,7 @@ def _table(table: Any) -> tuple[str, str] | None:
     if isinstance(table, str | os.PathLike):
         return os.fspath(table), Path(table).read_text(encoding="utf-8")
     if hasattr(table, "to_dict") and hasattr(table, "columns"):
-        table = {str(name): table[name].tolist() for name in table.columns}
+        table = {str(name): _listed(table[name]) for name in table.columns}
     if isinstance(table, Mapping):
         names = [str(name) for name in table]
         rows = list(zip(*table.values(), strict=True))
@@ -240,7 +240,21 @@ def _table(table: Any) -> tuple[str, str] | None:
     return "table", text.getvalue()
 
 
+def _listed(column: Any) -> list[Any]:
+    """The values of a column of pandas or of polars."""
+    listed: list[Any] = column.to_list() if hasattr(column, "to_list") else column.tolist()
+    return listed
+
+
 # Elsewhere.
+
+
+class _Computed(NamedTuple):
+    """A part: its file where the folder is not there, its rows, and those that failed."""
+
+    files: list[tuple[str, bytes]]
+    rows: int
+    failures: int
 
 
 @functools.lru_cache(maxsize=4)
@@ -251,7 +265,7 @@ def _made(packed: bytes) -> _core.Sweep:
     return plan.made()
 
 
-def _compute(packed: bytes, part: int, folder: str, manifest: bytes) -> list[tuple[str, bytes]] | str:
+def _compute(packed: bytes, part: int, folder: str, manifest: bytes) -> _Computed | str:
     """Computes a part where it is called: into the folder, where that is the same there, or else as what is given back; or why it cannot."""
     import tempfile
 
@@ -259,16 +273,17 @@ def _compute(packed: bytes, part: int, folder: str, manifest: bytes) -> list[tup
         made = _made(packed)
         stated = Path(folder) / "sweep.json"
         if stated.is_file() and stated.read_bytes() == manifest:
-            made.run(folder, 1, part, True, None)
-            return []
+            (_, rows, failures, *_), _ = made.run(folder, 1, part, True, None)
+            return _Computed([], rows, failures)
         with tempfile.TemporaryDirectory() as scratch:
-            made.run(scratch, 1, part, True, None)
-            return [(path.name, path.read_bytes()) for path in Path(scratch).glob("part-*.parquet")]
+            (_, rows, failures, *_), _ = made.run(scratch, 1, part, True, None)
+            files = [(path.name, path.read_bytes()) for path in Path(scratch).glob("part-*.parquet")]
+            return _Computed(files, rows, failures)
     except Exception as error:
         return f"{type(error).__name__}: {error}"
 
 
-def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: Progress) -> None:
+def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, keep_going: bool, bar: Progress) -> None:
     """Gives the parts that a folder lacks to an executor. What it loses too often is left for whoever called."""
     import pickle
 
@@ -286,13 +301,17 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
     waiting: dict[Future[Any], tuple[int, int]] = {}
     lost: list[int] = []
     why = ""
+    broken: str | None = None
+    rows = failures = 0
 
     def submit(part: int, tries: int) -> None:
+        nonlocal broken
         try:
-            waiting[executor.submit(_compute, packed, part, where, manifest)] = (part, tries)
-        except Exception:
-            # An executor that is broken, or whose scheduler is gone, takes no more: the rest is computed here.
-            waiting.clear()
+            if broken is None:
+                waiting[executor.submit(_compute, packed, part, where, manifest)] = (part, tries)
+        except Exception as error:
+            # An executor that is broken, or whose scheduler is gone, takes no more: what it has may still end, the rest is computed here.
+            broken = f"{type(error).__name__}: {error}"
 
     try:
         for part in missing:
@@ -300,8 +319,6 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
         while waiting:
             ended, _ = wait(waiting, timeout=0.2, return_when=FIRST_COMPLETED)
             for future in ended:
-                if future not in waiting:
-                    continue
                 part, tries = waiting.pop(future)
                 try:
                     found = future.result()
@@ -314,14 +331,22 @@ def _elsewhere(plan: _Plan, made: _core.Sweep, folder: Path, client: Any, bar: P
                     continue
                 if isinstance(found, str):
                     raise SweepError(f"part {part} of {made.parts} failed where the client computes it: {found}")
-                for name, data in found:
+                for name, data in found.files:
                     _write(folder / name, data)
                 done += 1
+                rows, failures = rows + found.rows, failures + found.failures
             if bar(done / made.parts, f"{done} of {made.parts} parts"):
+                return
+            # Whether it stops is judged in the order of the rows, of what is there.
+            if ended and not keep_going and failures > rows / 10 and made.fails(folder):
                 return
             # Dask leaves futures of a client that has lost its scheduler without an end.
             if getattr(client, "status", None) in ("closing", "closed"):
-                return
+                broken = broken or "it has closed"
+                break
+        if broken is not None:
+            warn([f"the client takes no more parts ({broken}): {made.parts - done} of {made.parts} are computed here"])
+            return
         if lost:
             warn([f"the client lost {len(lost)} of {made.parts} parts {_TRIES} times, which are computed here; the last by {why}"])
     finally:

@@ -3,7 +3,7 @@
 use super::path::LoadPath;
 use super::run::Run;
 use super::vibration::{Diagram, Modes, units};
-use super::watch::{Watch, guarded};
+use super::watch::{Watch, guarded, interruptible};
 use super::{faults, law, linear, value};
 use flexion_case::{Contents, DiagramRequest, Effort, Reading, Target};
 use pyo3::exceptions::PyValueError;
@@ -128,7 +128,8 @@ impl Case {
     /// Builds all that a run needs, and returns what its reader should know.
     fn check(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let reading = Arc::clone(&self.reading);
-        let prepared = guarded(py, || reading.prepare().map(|prepared| prepared.warnings().to_vec()))?;
+        let checked = move || reading.prepare().map(|prepared| prepared.warnings().to_vec());
+        let prepared = interruptible(py, checked)?;
         prepared.map_err(|problems| faults::problems(py, &problems))
     }
 
@@ -228,7 +229,10 @@ impl Case {
             reading
                 .advise(&target, &mut |state| watch.show(state.t / end, || format!("t = {:.3} s", state.t)))
         })?;
-        let advice = advice.map_err(|error| faults::advise(py, &error))?;
-        Ok((advice.to_json().to_string(), watch.raised()))
+        match (advice, watch.raised()) {
+            (Ok(advice), raised) => Ok((advice.to_json().to_string(), raised)),
+            (Err(_), Some(raised)) => Err(faults::interrupted(py, raised)),
+            (Err(error), None) => Err(faults::advise(py, &error)),
+        }
     }
 }

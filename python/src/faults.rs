@@ -4,7 +4,7 @@ use flexion_case::sweep::SweepError;
 use flexion_case::{AdviseError, Problems, RefineError, VibrationError};
 use flexion_results::{OutputError, ResultsError};
 use pyo3::call::PyCallArgs;
-use pyo3::exceptions::{PyKeyError, PyOSError};
+use pyo3::exceptions::{PyKeyError, PyKeyboardInterrupt, PyOSError};
 use pyo3::prelude::*;
 
 /// An exception made by a function or a class of `flexion._errors`.
@@ -29,6 +29,16 @@ pub fn problems(py: Python<'_>, problems: &Problems) -> PyErr {
 /// An analysis without result.
 pub fn analysis(py: Python<'_>, message: &str) -> PyErr {
     raise(py, "AnalysisError", (message,))
+}
+
+/// Ctrl-C before there is anything to keep; whatever else was raised stays what it is.
+pub fn interrupted(py: Python<'_>, raised: PyErr) -> PyErr {
+    if !raised.is_instance_of::<PyKeyboardInterrupt>(py) {
+        return raised;
+    }
+    let error = raise(py, "Interrupted", ("interrupted before there was a result",));
+    error.set_cause(py, Some(raised));
+    error
 }
 
 /// A fault of the program.

@@ -34,7 +34,7 @@ mod _core {
     #[pymodule_export]
     use super::vibration::{Diagram, Modes};
     #[pymodule_export]
-    use super::watch::end;
+    use super::watch::{end, forked};
     #[pymodule_export]
     use super::{program, schema, version, view};
 }

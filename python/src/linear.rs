@@ -1,6 +1,6 @@
 //! Small motions for control, and the stiffness of a place.
 
-use super::watch::guarded;
+use super::watch::interruptible;
 use super::{faults, value};
 use flexion::analysis::linearization::Table;
 use flexion_case::{LinearRequest, Reading};
@@ -44,7 +44,8 @@ pub fn linearize<'py>(
     };
     let inputs = inputs.into_iter().map(text).collect::<PyResult<Vec<_>>>()?;
     let request = LinearRequest { speed, free_hub, inputs, outputs };
-    let found = guarded(py, || reading.linearize(&request))?;
+    let shared = Arc::clone(reading);
+    let found = interruptible(py, move || shared.linearize(&request))?;
     let found = found.map_err(|error| faults::vibration(py, &error))?;
     let (of, by) = (&found.motions, &found.outputs.by);
     let names = of.coordinates.iter().map(|(_, name)| name.clone()).collect();
@@ -59,7 +60,8 @@ pub type Held<'py> = (Vec<&'static str>, Matrix<'py>, Vec<String>);
 
 /// The stiffness of a place.
 pub fn stiffness_at<'py>(py: Python<'py>, reading: &Arc<Reading>, place: &str) -> PyResult<Held<'py>> {
-    let found = guarded(py, || reading.stiffness_at(place))?;
+    let (shared, place) = (Arc::clone(reading), place.to_owned());
+    let found = interruptible(py, move || shared.stiffness_at(&place))?;
     let found = found.map_err(|error| faults::vibration(py, &error))?;
     Ok((found.components.to_vec(), matrix(py, &found.matrix), found.warnings))
 }

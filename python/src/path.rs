@@ -40,7 +40,7 @@ impl LoadPath {
         let path = guarded(py, || reading.statics(&request, &mut show))?;
         match (path, watch.raised()) {
             (Ok(path), raised) => Ok((LoadPath { reading: Arc::clone(reading), path }, raised)),
-            (Err(_), Some(raised)) => Err(raised),
+            (Err(_), Some(raised)) => Err(faults::interrupted(py, raised)),
             (Err(StaticsError::Case(problems)), None) => Err(faults::problems(py, &problems)),
             (Err(error), None) => Err(faults::analysis(py, &error.to_string())),
         }

@@ -63,7 +63,7 @@ impl Run {
         let raised = watch.raised();
         match (calculated, raised) {
             (Ok(run), raised) => Ok((run, raised)),
-            (Err(_), Some(raised)) => Err(raised),
+            (Err(_), Some(raised)) => Err(faults::interrupted(py, raised)),
             (Err(Ended::Rejected(problems)), None) => Err(faults::problems(py, &problems)),
             (Err(Ended::Refused(error)), None) => Err(faults::refine(py, &error)),
         }

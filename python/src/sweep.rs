@@ -80,6 +80,11 @@ impl Sweep {
         guarded(py, || self.sweep.kept_parts(&folder))
     }
 
+    /// Whether so many of the rows that a folder holds failed that the sweep stops.
+    fn fails(&self, py: Python<'_>, folder: PathBuf) -> PyResult<bool> {
+        guarded(py, || self.sweep.fails(&folder))
+    }
+
     /// Computes what a folder lacks, all of it or a part; beside what became of it stands what was raised meanwhile.
     fn run(
         &self,
@@ -108,7 +113,7 @@ impl Sweep {
         let raised = watch.into_inner().ok().and_then(|mut watch| watch.raised());
         let swept = match (swept, raised) {
             (Ok(swept), raised) => (swept, raised),
-            (Err(_), Some(raised)) => return Err(raised),
+            (Err(_), Some(raised)) => return Err(faults::interrupted(py, raised)),
             (Err(error), None) => return Err(faults::sweep(py, &error)),
         };
         let (swept, raised) = swept;

@@ -1,7 +1,7 @@
 //! Modes and Campbell diagrams.
 
 use super::figure::Figure;
-use super::watch::{Watch, guarded};
+use super::watch::{Watch, guarded, interruptible};
 use super::{columns, faults};
 use flexion::analysis::modes::Mode;
 use flexion_case::{DiagramRequest, FoundModes, ModesRequest, Reading, moves};
@@ -50,7 +50,8 @@ impl Modes {
         units: Units,
     ) -> PyResult<Modes> {
         let request = ModesRequest { speed, count, free_hub, units, film: false };
-        let found = guarded(py, || reading.modes(&request))?;
+        let shared = Arc::clone(reading);
+        let found = interruptible(py, move || shared.modes(&request))?;
         let found = found.map_err(|error| faults::vibration(py, &error))?;
         Ok(Modes { reading: Arc::clone(reading), found })
     }
@@ -131,7 +132,7 @@ impl Diagram {
         let raised = watch.into_inner().ok().and_then(|mut watch| watch.raised());
         match (found, raised) {
             (Ok(found), raised) => Ok((Diagram { reading: Arc::clone(reading), found }, raised)),
-            (Err(_), Some(raised)) => Err(raised),
+            (Err(_), Some(raised)) => Err(faults::interrupted(py, raised)),
             (Err(error), None) => Err(faults::vibration(py, &error)),
         }
     }

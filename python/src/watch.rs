@@ -3,17 +3,20 @@
 use super::faults;
 use pyo3::exceptions::PyRecursionError;
 use pyo3::prelude::*;
+use std::any::Any;
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
 use std::time::{Duration, Instant};
 
 /// Interval at which Python is asked.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Computations of laws of computations of laws …, beyond which a thread has no stack left.
-const DEEPEST: usize = 8;
+const DEEPEST: usize = 4;
 /// How long the end of the interpreter waits for computations of other threads.
 const PATIENCE: Duration = Duration::from_secs(10);
 
@@ -61,6 +64,12 @@ pub fn end(py: Python<'_>) {
     });
 }
 
+/// Leaves computations to the process that has forked: its child has the thread alone that forked, with what it computes.
+#[pyfunction]
+pub fn forked() {
+    RUNNING.store(DEPTH.get(), Ordering::SeqCst);
+}
+
 /// Computes without the lock of the interpreter; a panic, which no input should reach, is an exception.
 pub fn guarded<T: Send>(py: Python<'_>, compute: impl FnOnce() -> T + Send) -> PyResult<T> {
     if DEPTH.get() >= DEEPEST {
@@ -71,11 +80,44 @@ pub fn guarded<T: Send>(py: Python<'_>, compute: impl FnOnce() -> T + Send) -> P
         let _counted = Counted::new();
         catch_unwind(AssertUnwindSafe(compute))
     });
-    computed.map_err(|panic| {
-        let text = panic.downcast_ref::<String>().map(String::as_str);
-        let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a reason");
-        faults::internal(py, &format!("the program broke down, which is its fault: {text}"))
-    })
+    computed.map_err(|panic| broken(py, panic))
+}
+
+/// Stack of a thread that computes beside the one that called.
+const STACK: usize = 8 << 20;
+
+/// Computes what nobody asks on its way whether it goes on, beside the thread that calls: Ctrl-C returns at once, and what is still computed
+/// then is dropped.
+pub fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    compute: impl FnOnce() -> T + Send + 'static,
+) -> PyResult<T> {
+    let (send, mut receive) = channel();
+    let work = move || {
+        // Of one that has been interrupted nobody takes the result.
+        let _ = send.send(catch_unwind(AssertUnwindSafe(compute)));
+    };
+    thread::Builder::new().stack_size(STACK).spawn(work)?;
+    // This thread alone returns to Python.
+    let _counted = Counted::new();
+    loop {
+        let next = &mut receive;
+        match py.detach(move || next.recv_timeout(INTERVAL)) {
+            Ok(computed) => return computed.map_err(|panic| broken(py, panic)),
+            Err(_) if ending() => return Err(faults::internal(py, "Python ends")),
+            Err(RecvTimeoutError::Timeout) => {
+                py.check_signals().map_err(|raised| faults::interrupted(py, raised))?;
+            }
+            Err(RecvTimeoutError::Disconnected) => return Err(faults::internal(py, "a thread has ended")),
+        }
+    }
+}
+
+/// A panic as an exception.
+fn broken(py: Python<'_>, panic: Box<dyn Any + Send>) -> PyErr {
+    let text = panic.downcast_ref::<String>().map(String::as_str);
+    let text = text.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a reason");
+    faults::internal(py, &format!("the program broke down, which is its fault: {text}"))
 }
 
 /// Asks Python, now and then, whether a computation goes on.

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import warnings
+import time
+import os
 import copy
 import json
 import math
@@ -167,6 +170,65 @@ def test_a_callback_that_raises_ends_the_run_with_its_error(arm: flexion.Case) -
         expected = flexion.Interrupted if isinstance(error, KeyboardInterrupt) else type(error)
         with pytest.raises(expected):
             slow.run(errors="off", stop=stop)
+
+
+def test_errors_are_pickled(arm: flexion.Case) -> None:
+    for error in (flexion.RunError("broke down", arm.with_("run.duration", 0.1).run(errors="off")), flexion.Interrupted("by hand", 1)):
+        other = pickle.loads(pickle.dumps(error))
+        assert (type(other), str(other), other.result) == (type(error), str(error), None)
+
+
+def test_a_run_that_breaks_down_is_an_error_where_warnings_are(arm: flexion.Case) -> None:
+    def law(t: float, state: flexion._law.State) -> float:
+        raise OSError("lost")
+
+    load = {"on": "tip", "force": [0, 1]}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(flexion.RunError, match="lost"):
+            arm.run(laws={"push": flexion.law(law, load=load)})
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
+def test_a_child_that_was_forked_while_a_thread_computes_ends_at_once(arm: flexion.Case) -> None:
+    stop = threading.Event()
+    long = arm.with_("run.duration", 1e5)
+    thread = threading.Thread(target=lambda: long.run(errors="off", stop=stop))
+    thread.start()
+    time.sleep(0.2)
+    try:
+        began = time.monotonic()
+        child = os.fork()
+        if child == 0:
+            import atexit
+
+            atexit._run_exitfuncs()
+            os._exit(0 if time.monotonic() - began < 5.0 else 1)
+        assert os.waitpid(child, 0)[1] == 0
+    finally:
+        stop.set()
+        thread.join()
+
+
+INTERRUPTED = """
+import _thread, threading, time, flexion
+case = flexion.Case({case!r})
+call = {{"modes": lambda: case.modes(0.0, 900), "linearize": lambda: case.linearize(), "stiffness": lambda: case.stiffness_at("tip"),
+         "advise": lambda: case.advise(1e-9), "check": lambda: [case.check() for _ in range(10**5)]}}[{what!r}]
+threading.Timer(0.3, _thread.interrupt_main).start()
+try:
+    call()
+    print("done")
+except KeyboardInterrupt as error:
+    print(type(error).__name__)
+"""
+
+
+@pytest.mark.parametrize("what", ["modes", "advise", "check"])
+def test_what_is_not_a_run_ends_at_an_interrupt_too(arm: flexion.Case, what: str) -> None:
+    case = (arm | {"beam.elements": 3000, "run.duration": 200}).to_toml()
+    done = subprocess.run([sys.executable, "-c", INTERRUPTED.format(case=case, what=what)], capture_output=True, text=True, timeout=100, check=True)
+    assert done.stdout.strip() == "Interrupted", done
 
 
 def test_threads_stop_each_other(arm: flexion.Case) -> None:

@@ -253,6 +253,50 @@ def test_tasks_that_are_lost_are_done_again(arm: flexion.Case, whole: flexion.Sw
         assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, client=pool, part=2))
 
 
+class Broken(ThreadPoolExecutor):
+    """An executor that takes two parts and breaks then."""
+
+    taken = 0
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        self.taken += 1
+        if self.taken > 2:
+            raise RuntimeError("no more")
+        return super().submit(fn, *args, **kwargs)
+
+
+def test_what_a_client_that_breaks_has_is_awaited_and_the_rest_computed_here(arm: flexion.Case, whole: flexion.Sweep) -> None:
+    with Broken(1) as pool, pytest.warns(flexion.FlexionWarning, match=r"takes no more parts \(RuntimeError: no more\): 6 of 8 are"):
+        assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, client=pool, part=2))
+
+
+def test_too_many_failures_stop_a_sweep_where_a_client_computes_it(arm: flexion.Case) -> None:
+    failing = {"section.modulus": [-1.0] * 30 + [7e10] * 30}
+    good = arm.with_("run.duration", 0.1)
+    table = [{"section.modulus": value, "run.duration": 0.1} for value in (7e10, *failing["section.modulus"])]
+    counts = []
+    for pool in (None, ThreadPoolExecutor(1)):
+        with pytest.raises(flexion.SweepError, match="of the first 20 rows did not finish") as raised:
+            flexion.sweep(good, table=table, quantities=QUANTITY, errors="none", part=2, threads=1, client=pool)
+        counts.append(raised.value.result.rows)
+        assert pickle.loads(pickle.dumps(raised.value)).result.rows == counts[-1]
+    # A client may have computed more by then.
+    assert counts[0] == 20 <= counts[1] < 61
+
+
+def test_a_sweep_of_a_client_is_stopped_by_what_is_true_once(arm: flexion.Case) -> None:
+    asked = iter([True])
+    with ThreadPoolExecutor(1) as pool, pytest.warns(flexion.FlexionWarning, match="stopped by the user"):
+        some = flexion.sweep(arm, VARY | {"hub.motion.speed": np.linspace(3, 5, 50)}, QUANTITY, client=pool, part=2, stop=lambda: next(asked, False))
+    assert some.rows < 800
+
+
+def test_inputs_are_values_and_not_their_text_in_a_file(arm: flexion.Case) -> None:
+    swept = flexion.sweep(arm.with_("run.duration", 0.1), {"output.energy-balance": [True, False], "title": ["a, b", "c"]}, QUANTITY, errors="none")
+    assert swept["output.energy-balance"].tolist() == [True, True, False, False]
+    assert swept["title"].tolist() == ["a, b", "c"] * 2
+
+
 class Closed(ThreadPoolExecutor):
     """A client that has closed, and whose futures have no end."""
 
@@ -286,7 +330,8 @@ def test_threads_share_a_folder(arm: flexion.Case, whole: flexion.Sweep, tmp_pat
 
 def test_futures_without_an_end_of_a_client_that_has_closed_are_not_waited_for(arm: flexion.Case, whole: flexion.Sweep) -> None:
     with Closed(1) as client:
-        assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, client=client, part=2))
+        with pytest.warns(flexion.FlexionWarning, match=r"takes no more parts \(it has closed\): 8 of 8"):
+            assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, client=client, part=2))
 
 
 def test_workers_without_the_folder_send_their_parts(arm: flexion.Case, whole: flexion.Sweep, tmp_path: Path) -> None:

@@ -84,6 +84,26 @@ def test_a_request_that_cannot_be_met_says_why(arm: flexion.Case) -> None:
         arm.with_("hub.motion", {"kind": "constant", "speed": 0}).statics()
 
 
+def test_numbers_that_no_analysis_takes_are_refused(arm: flexion.Case) -> None:
+    for wrong in (0.0, -1.0, math.nan, math.inf):
+        with pytest.raises(ValueError, match="must be positive and finite"):
+            arm.statics(wrong)
+    for revolutions in (-1, 1001):
+        with pytest.raises(ValueError, match="`revolutions` is"):
+            arm.campbell([0, 1], revolutions=revolutions)
+    for margin in (-1.0, 100.0, math.nan):
+        with pytest.raises(ValueError, match="`margin` is"):
+            arm.campbell([0, 1], margin=margin)
+
+
+def test_advice_is_interrupted_by_what_its_stop_raises(arm: flexion.Case) -> None:
+    def stop() -> bool:
+        raise OSError("no")
+
+    with pytest.raises(OSError, match="no"):
+        arm.advise(1e-9, stop=stop)
+
+
 def test_a_path_of_loads_has_stability_and_errors(arm: flexion.Case, tmp_path: Path) -> None:
     # A clamped beam under a dead end load −P along it, disturbed by P/1000 across: Euler's load π²EI/4L².
     euler = math.pi**2 * 7e10 * 2e-7 / 4 / 10.0**2

@@ -184,6 +184,14 @@ impl Sweep {
         (0..parts.count()).filter(|part| parts.read(*part).is_some()).collect()
     }
 
+    /// Whether so many of the rows that a folder holds failed that the sweep stops, judged as [`Sweep::run_all`] does.
+    pub fn fails(&self, folder: &Path) -> bool {
+        let parts = Parts::new(self, folder, identity::name(&self.identity()));
+        let mut keeping = Keeping::default();
+        let mut judge = |part| parts.read(part).and_then(|rows| keeping.add(part, &rows, self.rows));
+        (0..parts.count()).any(|part| judge(part).is_some())
+    }
+
     /// Rows as columns, as they stand in files.
     pub fn table(&self, rows: &[Row]) -> Vec<Named> {
         table::columns(self, rows)

@@ -1,21 +1,53 @@
-//! Columns as a Parquet file of one row group.
+//! Columns as a Parquet file of one row group, sealed: its footer holds the SHA-256 of all its bytes.
 
 use super::table::{Data, Named};
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
+use sha2::{Digest, Sha256};
+use std::fmt::Write as _;
 use std::fs::File;
-use std::io::Write;
+use std::io::{Read, Write};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Definition levels of a value and of none.
 const THERE: i16 = 1;
 const NONE: i16 = 0;
+
+/// The key of the seal in the footer, and what stands for it while the bytes are hashed.
+const SEAL: &str = "sha256";
+const UNSEALED: [u8; 64] = [b'0'; 64];
+
+/// Where the seal stands: behind its key, the type of a text in the compact protocol of Thrift, and its length. What is written behind it is
+/// the name of the program.
+fn seal(bytes: &[u8]) -> Option<Range<usize>> {
+    let head = [SEAL.as_bytes(), &[0x18, 64]].concat();
+    let start = bytes.windows(head.len()).rposition(|window| window == head)? + head.len();
+    (start + UNSEALED.len() <= bytes.len()).then_some(start..start + UNSEALED.len())
+}
+
+fn digest(unsealed: &[u8]) -> String {
+    let mut text = String::with_capacity(UNSEALED.len());
+    for byte in Sha256::digest(unsealed) {
+        let _ = write!(text, "{byte:02x}");
+    }
+    text
+}
+
+/// Whether the bytes are those that were written.
+fn is_sealed(mut bytes: Vec<u8>) -> bool {
+    let Some(at) = seal(&bytes) else { return false };
+    let stated = bytes[at.clone()].to_vec();
+    bytes[at].copy_from_slice(&UNSEALED);
+    digest(&bytes).as_bytes() == stated
+}
 
 fn field((name, data): &Named) -> Result<Arc<Type>> {
     let (physical, repetition, logical) = match data {
@@ -32,7 +64,7 @@ fn field((name, data): &Named) -> Result<Arc<Type>> {
 ///
 /// # Errors
 /// Those of the file, and of names that no file can hold.
-pub(super) fn write(columns: &[Named], created_by: &str, to: impl Write + Send) -> Result<()> {
+pub(super) fn write(columns: &[Named], created_by: &str, mut to: impl Write) -> Result<()> {
     let fields = columns.iter().map(field).collect::<Result<Vec<_>>>()?;
     let schema = Arc::new(Type::group_type_builder("sweep").with_fields(fields).build()?);
     let properties = WriterProperties::builder()
@@ -40,8 +72,13 @@ pub(super) fn write(columns: &[Named], created_by: &str, to: impl Write + Send) 
         .set_dictionary_enabled(false)
         .set_statistics_enabled(EnabledStatistics::Chunk)
         .set_offset_index_disabled(true)
+        .set_key_value_metadata(Some(vec![KeyValue::new(
+            SEAL.to_owned(),
+            String::from_utf8_lossy(&UNSEALED).into_owned(),
+        )]))
         .build();
-    let mut file = SerializedFileWriter::new(to, schema, Arc::new(properties))?;
+    let mut bytes = Vec::new();
+    let mut file = SerializedFileWriter::new(&mut bytes, schema, Arc::new(properties))?;
     let mut group = file.next_row_group()?;
     for (_, data) in columns {
         match data {
@@ -55,7 +92,11 @@ pub(super) fn write(columns: &[Named], created_by: &str, to: impl Write + Send) 
     }
     group.close()?;
     file.close()?;
-    Ok(())
+    let at =
+        seal(&bytes).ok_or_else(|| ParquetError::General("there is no place for the seal".to_owned()))?;
+    let sealed = digest(&bytes);
+    bytes[at].copy_from_slice(sealed.as_bytes());
+    Ok(to.write_all(&bytes)?)
 }
 
 fn optional<T: DataType, V, W: Write + Send>(
@@ -82,8 +123,13 @@ fn column<T: DataType, W: Write + Send>(
 /// Reads what [`write`] wrote: the columns in their order, with their names.
 ///
 /// # Errors
-/// A file that is torn, or that this program did not write.
-pub(super) fn read(file: File) -> Result<Vec<Named>> {
+/// A file that is torn or changed, in one bit even, or that this program did not write.
+pub(super) fn read(mut file: File) -> Result<Vec<Named>> {
+    let mut bytes = Vec::new();
+    file.read_to_end(&mut bytes)?;
+    if !is_sealed(bytes) {
+        return Err(ParquetError::General("its bytes are not those that were written".to_owned()));
+    }
     let reader = SerializedFileReader::new(file)?;
     let rows = usize::try_from(reader.metadata().file_metadata().num_rows()).unwrap_or(0);
     if reader.num_row_groups() != 1 {

@@ -44,8 +44,14 @@ pub(super) fn columns(sweep: &Sweep, rows: &[Row]) -> Vec<Named> {
     let whole = |of: &dyn Fn(&Row) -> i64| Data::Whole(rows.iter().map(of).collect());
     let mut out = vec![("row".to_owned(), whole(&|row| row.number as i64))];
     for (i, input) in sweep.inputs.iter().enumerate() {
-        let is_text = matches!(sweep.columns[i], super::Column::Texts(..));
-        let data = if is_text {
+        let truth = |text: &String| text.parse::<bool>().is_ok();
+        let data = if let super::Column::Texts(all, _) = &sweep.columns[i]
+            && all.iter().all(truth)
+        {
+            let of =
+                |row: &Row| if let Point::Text(text) = &row.inputs[i] { text.parse().ok() } else { None };
+            Data::Booleans(rows.iter().map(of).collect())
+        } else if matches!(sweep.columns[i], super::Column::Texts(..)) {
             texts(&|row| if let Point::Text(text) = &row.inputs[i] { Some(text.clone()) } else { None })
         } else {
             numbers(&|row| if let Point::Number(x) = row.inputs[i] { Some(x) } else { None })
@@ -97,7 +103,8 @@ pub(super) fn rows(sweep: &Sweep, columns: Vec<Data>) -> Option<Vec<Row>> {
         let point = |data: &Data| match data {
             Data::Numbers(of) => of[i].map(Point::Number),
             Data::Texts(of) => of[i].clone().map(Point::Text),
-            _ => None,
+            Data::Booleans(of) => of[i].map(|truth| Point::Text(truth.to_string())),
+            Data::Whole(_) => None,
         };
         let collected = |([values, errors, times], trusted): &([Vec<Option<f64>>; 3], Vec<Option<bool>>)| {
             Some(Collected {
