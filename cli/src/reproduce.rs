@@ -3,8 +3,8 @@
 use crate::run::stop_on_ctrl_c;
 use crate::{Outcome, screen};
 use flexion_reproduce::{
-    Answer, Counts, Described, Options, Progress, Reproduced, built_in, built_in_names, check, compute,
-    expected, from_folder, identity_of_program, of_paper, write,
+    Answer, Counts, Described, Options, Progress, Reproduced, built_in, built_in_names, check, comparable,
+    compute, expected, from_folder, identity_of_program, of_paper, write,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
@@ -55,6 +55,14 @@ struct Asked {
 /// Computes papers again.
 pub fn reproduce(arguments: &Arguments) -> Outcome {
     let Some(papers) = asked(&arguments.papers) else { return Outcome::Rejected };
+    if arguments.check || arguments.accept {
+        let found = papers.iter().filter_map(|of| comparable(&of.paper, arguments.accept).err());
+        let found: Vec<String> = found.map(|error| format!("error: {error}\n")).collect();
+        if !found.is_empty() {
+            screen::report(&found.concat());
+            return Outcome::Rejected;
+        }
+    }
     if arguments.accept && papers.iter().any(|of| of.folder.is_none()) {
         screen::report(
             "error: --accept needs the folder of a paper, e.g. `flexion reproduce papers/P1 --accept`\n",
@@ -110,8 +118,12 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
     if arguments.accept {
         for (of, answers) in papers.iter().zip(&answers) {
             let Some(folder) = &of.folder else { continue };
-            let text = expected(&of.paper, answers);
-            if let Err(error) = flexion_results::write_file(&folder.join("expected.toml"), text.as_bytes()) {
+            let text = expected(&of.paper, answers).map_err(|error| error.to_string());
+            let written = text.and_then(|text| {
+                flexion_results::write_file(&folder.join("expected.toml"), text.as_bytes())
+                    .map_err(|error| error.to_string())
+            });
+            if let Err(error) = written {
                 screen::report(&format!("error: {error}\n"));
                 return Outcome::Incomplete;
             }
@@ -162,11 +174,9 @@ fn counted(name: &str, results: &str, counts: [String; 5]) -> Vec<String> {
 
 /// The papers that these words name; what is wrong goes to standard error.
 fn asked(words: &[String]) -> Option<Vec<Asked>> {
-    let names = if words.is_empty() || words.iter().any(|word| word == "all") {
-        built_in_names()
-    } else {
-        words.to_vec()
-    };
+    let all = |word: &String| if word == "all" { built_in_names() } else { vec![word.clone()] };
+    let names: Vec<String> =
+        if words.is_empty() { built_in_names() } else { words.iter().flat_map(all).collect() };
     let mut out: Vec<Asked> = Vec::new();
     let mut sound = true;
     for word in &names {

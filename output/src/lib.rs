@@ -69,7 +69,7 @@ pub use self::results::{Results, select};
 pub use self::run::{Attachments, write_run};
 pub use self::scene::{Part, Scene};
 pub use self::shapes::{Shape, Shapes};
-pub use self::shown::with_error;
+pub use self::shown::{with_error, with_error_of};
 pub use self::solids::{write_film, write_solids};
 pub use self::spring::Spring;
 pub use self::state_file::read_state;

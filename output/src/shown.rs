@@ -3,17 +3,23 @@
 /// A value with its error, e.g. `-0.400335 ± 2e-6`: the error rounded up to one digit, the value to the place of it, and to
 /// ten digits at most.
 pub fn with_error(value: f64, error: f64) -> String {
+    with_error_of(value, error, 1)
+}
+
+/// The same with an error of so many digits: `-0.4003350 ± 1.4e-6`.
+pub fn with_error_of(value: f64, error: f64, digits: i32) -> String {
     if !(value.is_finite() && error.is_finite()) {
         return format!("{value:.6e} ± {error:.0e}");
     }
     let place = |x: f64| libm::log10(x.abs()).floor() as i32;
     let size = place(value.abs().max(error).max(f64::MIN_POSITIVE));
-    let mut last = if error > 0.0 { place(error) } else { size - 9 };
-    let scaled = error / 10f64.powi(last);
-    let mut digit = (scaled - 1e-9).ceil();
-    if digit >= 10.0 {
-        (digit, last) = (1.0, last + 1);
+    let mut first = if error > 0.0 { place(error) } else { size - 9 };
+    let most = 10f64.powi(digits - 1);
+    let mut rounded = (most * error / 10f64.powi(first) - 1e-9).ceil();
+    if rounded >= 10.0 * most {
+        (rounded, first) = (most, first + 1);
     }
+    let last = first - (digits - 1);
     let last_shown = last.max(size - 9);
     let number = if value == 0.0 {
         "0".to_owned()
@@ -22,12 +28,16 @@ pub fn with_error(value: f64, error: f64) -> String {
     } else {
         format!("{value:.*e}", (size - last_shown).max(0) as usize)
     };
-    if error > 0.0 { format!("{number} ± {digit}e{last}") } else { number }
+    if error > 0.0 {
+        format!("{number} ± {:.*}e{first}", (digits - 1) as usize, rounded / most)
+    } else {
+        number
+    }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::with_error;
+    use super::{with_error, with_error_of};
 
     #[test]
     fn a_value_ends_at_the_place_of_its_error() {
@@ -43,6 +53,13 @@ mod tests {
             (3.2e-5, 1e-3, "0.000 ± 1e-3"),
         ] {
             assert_eq!(with_error(value, error), text);
+        }
+        for (value, error, text) in [
+            (-0.400_335_003, 1.35e-6, "-0.4003350 ± 1.4e-6"),
+            (123.456, 9.96, "123 ± 1.0e1"),
+            (0.25, 3e-14, "0.2500000000 ± 3.0e-14"),
+        ] {
+            assert_eq!(with_error_of(value, error, 2), text);
         }
     }
 }

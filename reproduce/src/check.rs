@@ -1,23 +1,26 @@
 //! `--check`: the values of a paper against those that were accepted.
 
 use crate::answer::{Answer, Curve};
-use crate::described::{As, Described};
+use crate::described::{As, Described, OfRun};
 use crate::need::{Asks, Need, of_paper};
 use crate::rule::Ruled;
 use crate::term::{Answers, of_run};
 use crate::verdict::judged;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative change of a value that is listed.
 const LISTED: f64 = 1e-9;
 /// Factor by which a stated error may grow.
 const GROWN: f64 = 10.0;
+/// Factor by which an accepted error may be larger than one that is found: beyond it a check would let anything pass.
+const SHRUNK: f64 = 1e3;
 /// Error over its value below which its growth is rounding.
 const SMALL: f64 = 1e-9;
 
 /// What was accepted of a paper.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 struct Expected {
     /// Verdicts by item and number of the claim.
     #[serde(default)]
@@ -40,10 +43,52 @@ pub struct Checked {
 
 /// There is nothing to compare with.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{paper} has no expected.toml that can be read{why}: `flexion reproduce FOLDER --accept` writes it")]
-pub struct CheckError {
-    paper: String,
-    why: String,
+pub enum CheckError {
+    /// Nothing was accepted.
+    #[error("{paper} has no expected.toml: `flexion reproduce FOLDER --accept` writes it")]
+    None {
+        /// The paper.
+        paper: String,
+    },
+    /// What was accepted cannot be read.
+    #[error(
+        "expected.toml of {paper} cannot be read ({why}): mend it, or remove it and let `flexion reproduce FOLDER --accept` write it anew"
+    )]
+    Unreadable {
+        /// The paper.
+        paper: String,
+        /// What is wrong.
+        why: String,
+    },
+}
+
+/// What was accepted of a paper, where it has something.
+///
+/// # Errors
+/// [`CheckError::Unreadable`]
+fn accepted(described: &Described) -> Result<Option<Expected>, CheckError> {
+    let Some(text) = &described.expected else { return Ok(None) };
+    let unreadable = |why: String| CheckError::Unreadable { paper: described.name.clone(), why };
+    let read: Expected =
+        toml::from_str(text).map_err(|problem| unreadable(problem.to_string().trim_end().to_owned()))?;
+    let known = |error: f64| error.is_finite() && (error >= 0.0 || error == -1.0);
+    match read.values.iter().find(|(_, [value, error])| !value.is_finite() || !known(*error)) {
+        Some((name, [value, error])) => {
+            Err(unreadable(format!("{name}: {value} ± {error} is no value with an error")))
+        }
+        None => Ok(Some(read)),
+    }
+}
+
+/// Whether what was accepted of a paper can be compared with, or with `accept` replaced.
+///
+/// # Errors
+/// [`CheckError`]
+pub fn comparable(described: &Described, accept: bool) -> Result<(), CheckError> {
+    match accepted(described)? {
+        None if !accept => Err(CheckError::None { paper: described.name.clone() }),
+        _ => Ok(()),
+    }
 }
 
 /// The answers of an item by the names of its runs.
@@ -92,13 +137,16 @@ fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
             let name = format!("{run} | {column} root-mean-square");
             out.values.insert(name, [root_mean_square(&curve.y), largest_error(curve)]);
         }
+        // What is no number agrees with nothing.
+        out.values.retain(|_, [value, _]| value.is_finite());
     }
     for (id, item) in &described.items {
         let answers = of_item(id, item, &numbers, answers);
         // Curves are compared by their differences.
-        for of in crate::need::terms(item).iter().filter(|of| of.compared == Some(As::CurveDifference)) {
-            if let (Ok(value), Some(to)) = (of_run(of, &answers), &of.to) {
-                let name = format!("{id}: {} to {to} | {} curve-difference", of.run, of.quantity);
+        for of in &crate::need::terms(item) {
+            if let Some(name) = of_curves(id, of)
+                && let Ok(value) = of_run(of, &answers)
+            {
                 out.values.insert(name, [value.value, value.error.unwrap_or(-1.0)]);
             }
         }
@@ -127,21 +175,22 @@ fn largest_error(curve: &Curve) -> f64 {
     if known { curve.off.iter().copied().fold(0.0, f64::max) } else { -1.0 }
 }
 
-/// The text of `expected.toml` for these answers; what was not run is kept as it stands.
-pub fn expected(described: &Described, answers: &[Option<Answer>]) -> String {
-    let mut out: Expected =
-        described.expected.as_deref().and_then(|text| toml::from_str(text).ok()).unwrap_or_default();
+/// The text of `expected.toml` for these answers; what was not run is kept as it stands, and what is gone is left out.
+///
+/// # Errors
+/// [`CheckError::Unreadable`]
+pub fn expected(described: &Described, answers: &[Option<Answer>]) -> Result<String, CheckError> {
+    let mut out = accepted(described)?.unwrap_or_default();
     let now = found(described, answers);
-    if answers.iter().all(Option::is_some) {
-        out = now;
-    } else {
-        out.values.extend(now.values);
-        out.verdicts.extend(now.verdicts);
-    }
+    let (values, verdicts) = gone(described, answers, &out, &now);
+    out.values.retain(|name, _| !values.contains(name));
+    out.verdicts.retain(|name, _| !verdicts.contains(name));
+    out.values.extend(now.values);
+    out.verdicts.extend(now.verdicts);
     let body = toml::to_string(&out).unwrap_or_default();
-    format!(
+    Ok(format!(
         "# Values with their errors, and verdicts, for `flexion reproduce --check`; written by `flexion reproduce FOLDER --accept`.\n{body}"
-    )
+    ))
 }
 
 /// Compares answers with those that were accepted; what was not run is not compared.
@@ -149,10 +198,7 @@ pub fn expected(described: &Described, answers: &[Option<Answer>]) -> String {
 /// # Errors
 /// [`CheckError`]
 pub fn check(described: &Described, answers: &[Option<Answer>]) -> Result<Checked, CheckError> {
-    let error = |why: String| CheckError { paper: described.name.clone(), why };
-    let text = described.expected.as_deref().ok_or_else(|| error(String::new()))?;
-    let expected: Expected =
-        toml::from_str(text).map_err(|problem| error(format!(" ({})", problem.to_string().trim_end())))?;
+    let expected = accepted(described)?.ok_or_else(|| CheckError::None { paper: described.name.clone() })?;
     let now = found(described, answers);
     let mut out = Checked::default();
     let mut compare = |name: &str, before: Option<&[f64; 2]>, after: [f64; 2]| {
@@ -169,6 +215,9 @@ pub fn check(described: &Described, answers: &[Option<Answer>]) -> Result<Checke
             out.failed.push(format!("{name}: {value} ± {error} has become {} ± {}", after[0], after[1]));
         } else if after[1] > GROWN * error.max(SMALL * value.abs()) || (*error >= 0.0 && after[1] < 0.0) {
             out.failed.push(format!("{name}: its error {error} has become {}", after[1]));
+        } else if *error > SHRUNK * after[1].max(SMALL * value.abs()) && after[1] >= 0.0 {
+            out.failed
+                .push(format!("{name}: its error {error} has become {}; `--accept` takes it up", after[1]));
         } else if relative > LISTED {
             out.listed.push(format!("{name}: {value} has become {}, within the error", after[0]));
         }
@@ -184,39 +233,63 @@ pub fn check(described: &Described, answers: &[Option<Answer>]) -> Result<Checke
             None => out.failed.push(format!("claim {name}: {verdict} is new; `--accept` takes it up")),
         }
     }
-    out.failed.extend(gone(described, answers, &expected, &now));
+    let (values, verdicts) = gone(described, answers, &expected, &now);
+    out.failed.extend(values.into_iter().map(|name| format!("{name} is gone")));
+    out.failed.extend(verdicts.into_iter().map(|name| format!("claim {name} is gone")));
     Ok(out)
 }
 
-/// What was accepted and is not there any more, of runs that are computed and of claims whose runs are, and of what the paper no longer has.
+/// The values and the verdicts that were accepted and are not there any more: of runs that are computed and of claims whose runs are, and of
+/// what the paper no longer asks.
 fn gone(
     described: &Described,
     answers: &[Option<Answer>],
     expected: &Expected,
     now: &Expected,
-) -> Vec<String> {
+) -> (Vec<String>, Vec<String>) {
     let (needs, numbers) = of_paper(described);
-    let computed: BTreeMap<String, bool> =
-        needs.iter().zip(answers).map(|(need, answer)| (of_need(need), answer.is_some())).collect();
+    let computed: BTreeMap<String, (&Need, bool)> =
+        needs.iter().zip(answers).map(|(need, answer)| (of_need(need), (need, answer.is_some()))).collect();
     let whole = |id: &str| {
         described.items.iter().find(|(own, _)| own.as_str() == id).is_none_or(|(id, item)| {
             of_item(id, item, &numbers, answers).values().all(|(answer, _)| answer.is_some())
         })
     };
+    let terms = |(id, item): &(String, crate::described::Item)| {
+        crate::need::terms(item).iter().filter_map(|of| of_curves(id, of)).collect::<Vec<_>>()
+    };
+    let compared: BTreeSet<String> = described.items.iter().flat_map(terms).collect();
     let is_gone = |name: &&String| {
-        let run = name.rsplit_once(" | ").map_or(name.as_str(), |(run, _)| run);
+        let (run, what) = name.rsplit_once(" | ").unwrap_or((name.as_str(), ""));
         let item = run.split_once(": ").map(|(item, _)| item);
         let looked_for = match (computed.get(run), item) {
-            (Some(computed), _) => *computed,
-            (None, Some(item)) => whole(item),
+            (Some((need, computed)), _) => *computed || !is_asked(need, what),
+            (None, Some(item)) => whole(item) || !compared.contains(*name),
             (None, None) => true,
         };
         looked_for && !now.values.contains_key(*name)
     };
-    let values = expected.values.keys().filter(is_gone).map(|name| format!("{name} is gone"));
     let claim = |name: &&String| {
-        let item = name.rsplit_once('.').map_or(name.as_str(), |(item, _)| item);
-        whole(item) && !now.verdicts.contains_key(*name)
+        let (item, number) = name.rsplit_once('.').unwrap_or((name.as_str(), ""));
+        let there = described.items.iter().find(|(id, _)| id == item).is_some_and(|(_, item)| {
+            number.parse::<usize>().is_ok_and(|number| (1..=item.claims.len()).contains(&number))
+        });
+        (whole(item) || !there) && !now.verdicts.contains_key(*name)
     };
-    values.chain(expected.verdicts.keys().filter(claim).map(|name| format!("claim {name} is gone"))).collect()
+    let values = expected.values.keys().filter(is_gone).cloned().collect();
+    (values, expected.verdicts.keys().filter(claim).cloned().collect())
+}
+
+/// Whether a value of this name is asked of a run.
+fn is_asked(need: &Need, what: &str) -> bool {
+    let column = what.strip_suffix(" root-mean-square");
+    need.run.key.asks != Asks::Run
+        || need.quantities.contains(what)
+        || column.is_some_and(|column| need.columns.contains(column))
+}
+
+/// The name of a difference of curves of an item, where a term is one.
+fn of_curves(id: &str, of: &OfRun) -> Option<String> {
+    let to = of.to.as_ref().filter(|_| of.compared == Some(As::CurveDifference))?;
+    Some(format!("{id}: {} to {to} | {} curve-difference", of.run, of.quantity))
 }

@@ -76,6 +76,10 @@ pub struct Lines {
     pub runs: Vec<(usize, Vec<usize>, Vec<usize>)>,
     /// Of the rule of each claim.
     pub claims: Vec<usize>,
+    /// Of each plot.
+    pub plots: Vec<usize>,
+    /// Of the table.
+    pub table: Option<usize>,
     /// Of each column of the table.
     pub columns: Vec<usize>,
     /// The text of the file.

@@ -12,6 +12,7 @@ mod check;
 mod compute;
 mod described;
 mod figure;
+mod form;
 mod html;
 mod keep;
 mod need;
@@ -26,7 +27,7 @@ mod term;
 mod verdict;
 
 pub use answer::{Answer, Curve, Valued};
-pub use check::{CheckError, Checked, check, expected};
+pub use check::{CheckError, Checked, check, comparable, expected};
 pub use compute::{Options, Progress, Stopped, compute};
 pub use described::{Described, ItemKind};
 pub use keep::identity_of_program;

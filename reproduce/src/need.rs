@@ -1,6 +1,6 @@
 //! What has to be computed for a paper: its runs, each with all that its items ask of it.
 
-use crate::described::{As, Claim, Described, Item, OfEnergy, OfModes, OfRun, Rule, Template, Term};
+use crate::described::{As, Described, Item, OfEnergy, OfModes, OfRun, Rule, Template, Term};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Most runs of an item.
@@ -185,7 +185,7 @@ fn asked(item: &Item) -> (Asked, Asked) {
     for OfRun { run, quantity, to, compared } in terms(item) {
         let curve = compared == Some(As::CurveDifference);
         let list = if curve { &mut columns } else { &mut quantities };
-        let what = if curve { crate::term::window(&quantity).0 } else { &quantity };
+        let what = if curve { crate::term::column(&quantity) } else { &quantity };
         list.extend(std::iter::once(run).chain(to).map(|run| (run, what.to_owned())));
     }
     (quantities, columns)
@@ -228,7 +228,7 @@ pub fn varies(rule: &Rule) -> bool {
 }
 
 /// Shows all terms of a rule.
-fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
+pub fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
     let mut term = |term: &Term| {
         if let Term::Of(of) = term {
             see(of)
@@ -249,7 +249,7 @@ fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
 }
 
 /// The runs that a rule names besides those of its terms.
-fn named_by(rule: &Rule) -> Vec<&String> {
+pub fn named_by(rule: &Rule) -> Vec<&String> {
     match rule {
         Rule::EndsEarly { runs } | Rule::Finishes { runs } => runs.iter().collect(),
         Rule::All { rules } => rules.iter().flat_map(named_by).collect(),
@@ -300,7 +300,6 @@ pub fn problems(item: &Item) -> Vec<String> {
     for claim in &item.claims {
         of_rule(&claim.rule, &mut |of| out.extend(both(of.to.is_some(), of.compared.is_some(), &claim.text)));
         out.extend(empty(&claim.rule).map(|problem| format!("{}: {problem}", claim.text)));
-        out.extend(unfilled(claim).into_iter().map(|problem| format!("{}: {problem}", claim.text)));
     }
     out
 }
@@ -341,23 +340,8 @@ fn empty(rule: &Rule) -> Option<String> {
     }
 }
 
-/// The words between braces of the sentences of a claim that its rule does not fill.
-fn unfilled(claim: &Claim) -> Vec<String> {
-    let filled = placeholders(&claim.rule);
-    let sentences = [&claim.holds, &claim.fails, &claim.undecided].into_iter().flatten();
-    let words =
-        sentences.flat_map(|text| text.split('{').skip(1).filter_map(|rest| Some(rest.split_once('}')?.0)));
-    let unknown = words.filter(|word| filled.iter().all(|known| known != word));
-    let allowed = if filled.is_empty() {
-        "it has none".to_owned()
-    } else {
-        format!("it has {{{}}}", filled.join("}, {"))
-    };
-    unknown.map(|word| format!("its rule gives no {{{word}}} for a sentence; {allowed}")).collect()
-}
-
-/// What a rule gives for sentences; of several rules the first that has a word, and of the second and later ones the word with their number.
-fn placeholders(rule: &Rule) -> Vec<String> {
+/// What a rule gives for sentences; of several rules the first that has a word, and of each the word with its number.
+pub fn placeholders(rule: &Rule) -> Vec<String> {
     let words: &[&str] = match rule {
         Rule::Less { .. } => &["left", "right"],
         Rule::Within { .. } => &["of", "low", "high"],

@@ -177,7 +177,9 @@ fn lines(text: &str) -> Lines {
         runs: Vec<OfRun>,
         #[serde(default, rename = "claim")]
         claims: Vec<OfClaim>,
-        table: Option<OfTable>,
+        #[serde(default, rename = "plot")]
+        plots: Vec<OfPlot>,
+        table: Option<Spanned<OfTable>>,
     }
     #[derive(serde::Deserialize)]
     struct OfRun {
@@ -192,6 +194,10 @@ fn lines(text: &str) -> Lines {
         rule: Spanned<toml::Table>,
     }
     #[derive(serde::Deserialize)]
+    struct OfPlot {
+        y: Spanned<String>,
+    }
+    #[derive(serde::Deserialize)]
     struct OfTable {
         columns: Vec<Spanned<toml::Table>>,
     }
@@ -199,10 +205,12 @@ fn lines(text: &str) -> Lines {
     let all = |list: &[Spanned<String>]| list.iter().map(|text| of(text.span().start)).collect::<Vec<_>>();
     let places: Places = toml::from_str(text).unwrap_or_default();
     let runs = places.runs.iter();
-    let columns = places.table.iter().flat_map(|table| &table.columns);
+    let columns = places.table.iter().flat_map(|table| &table.get_ref().columns);
     Lines {
         runs: runs.map(|run| (of(run.name.span().start), all(&run.set), all(&run.against))).collect(),
         claims: places.claims.iter().map(|claim| of(claim.rule.span().start)).collect(),
+        plots: places.plots.iter().map(|plot| of(plot.y.span().start)).collect(),
+        table: places.table.as_ref().map(|table| of(table.span().start)),
         columns: columns.map(|column| of(column.span().start)).collect(),
         text: text.to_owned(),
     }

@@ -1,6 +1,7 @@
 //! Rules: what decides a claim.
 
 use crate::described::{As, OfRun, Rule, Term};
+use crate::need::placeholders;
 use crate::shown::{plain, shown};
 use crate::term::{Answers, Missing, Number, answer, number, of_run};
 
@@ -113,6 +114,12 @@ fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled
             for (i, rule) in rules.iter().enumerate() {
                 let mut own = Words::new();
                 each.push(decide(rule, answers, &mut own));
+                // Another rule may decide where this one has no values.
+                for word in placeholders(rule).into_iter().map(|word| format!("{{{word}}}")) {
+                    if own.iter().all(|(known, _)| *known != word) {
+                        own.push((word, "an unknown value".to_owned()));
+                    }
+                }
                 for (name, value) in own {
                     words.push((name.replace('}', &format!("{}}}", i + 1)), value.clone()));
                     if words.iter().all(|(known, _)| *known != name) {

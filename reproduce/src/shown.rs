@@ -1,18 +1,18 @@
 //! Numbers as they are shown to people.
 
 use crate::term::Number;
-use flexion_results::with_error;
+use flexion_results::with_error_of;
 
-/// Part of a value below which an error is one of rounding, and not shown.
-const ROUNDING: f64 = 1e-11;
+/// Digits of an error: one, rounded up, may say that values overlap which a rule tells apart.
+const DIGITS: i32 = 2;
 
-/// A number with its error and unit: `-0.400335 ± 2e-6 m`, or in per cent what is a part of something.
+/// A number with its error and unit: `-0.4003350 ± 1.4e-6 m`, or in per cent what is a part of something.
 pub fn shown(number: &Number) -> String {
     let (factor, unit) = if number.part { (100.0, "%") } else { (1.0, number.unit.as_str()) };
     let value = factor * number.value;
     let text = match number.error {
         _ if number.varies => two_digits(value),
-        Some(error) if error > ROUNDING * number.value.abs() => with_error(value, factor * error),
+        Some(error) if error > 0.0 => with_error_of(value, factor * error, DIGITS),
         Some(_) => plain(value),
         None => format!("{} ± ?", plain(value)),
     };

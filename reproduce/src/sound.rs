@@ -6,7 +6,7 @@ use crate::described::{As, Described, Item, OfRun, Rule, Term};
 use crate::keep::Kept;
 use crate::need::{Asks, Named, Need, of_paper};
 use crate::paper::PaperError;
-use crate::term::window;
+use crate::term::column;
 use flexion_case::{Contents, Problem, Problems, Reading, parse_with, units};
 use flexion_results::nearest;
 use std::collections::BTreeMap;
@@ -57,7 +57,9 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
             let (units, _) = found.get(numbers.get(&(id.clone(), run.to_owned()))?)?;
             units.get(what).cloned()
         };
-        problems.extend(of_units(&format!("{}/{id}.toml", described.place), item, &unit));
+        let file = format!("{}/{id}.toml", described.place);
+        problems.extend(crate::form::problems(&file, item));
+        problems.extend(of_units(&file, item, &unit));
     }
     // What is wrong with a line is wrong with each run that is made of it.
     let mut seen = Vec::new();
@@ -221,7 +223,7 @@ fn of_term(
     unit: &dyn Fn(&str, &str) -> Option<String>,
     wrong: &mut Vec<String>,
 ) -> Option<String> {
-    let what = if of.compared == Some(As::CurveDifference) { window(&of.quantity).0 } else { &of.quantity };
+    let what = if of.compared == Some(As::CurveDifference) { column(&of.quantity) } else { &of.quantity };
     let own = unit(&of.run, what);
     let (Some(to), Some(compared)) = (&of.to, of.compared) else { return own };
     if let (Some(own), Some(other)) = (&own, unit(to, what))

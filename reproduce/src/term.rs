@@ -68,7 +68,7 @@ pub fn of_run(of: &OfRun, answers: &Answers<'_>) -> Result<Number, Missing> {
         });
     };
     if *compared == As::CurveDifference {
-        let (column, within) = window(quantity);
+        let (column, within) = window(quantity).map_err(Missing::Because)?;
         let curve = |run: &String| answer(answers, run)?.curve(column).map_err(because(run));
         for run in [run, to] {
             if within.1.is_infinite() && !answer(answers, run)?.finished() {
@@ -102,12 +102,33 @@ pub fn of_run(of: &OfRun, answers: &Answers<'_>) -> Result<Number, Missing> {
     })
 }
 
+/// The column of a text `COLUMN` or `COLUMN@FROM..TO`.
+pub fn column(text: &str) -> &str {
+    text.split_once('@').map_or(text, |(column, _)| column)
+}
+
 /// A column, and the times to which it is restricted.
-pub fn window(text: &str) -> (&str, (f64, f64)) {
-    let whole = (f64::NEG_INFINITY, f64::INFINITY);
-    let Some((column, times)) = text.split_once('@') else { return (text, whole) };
-    let Some((from, to)) = times.split_once("..") else { return (column, whole) };
-    (column, (from.trim().parse().unwrap_or(whole.0), to.trim().parse().unwrap_or(whole.1)))
+///
+/// # Errors
+/// What is wrong with the times.
+pub fn window(text: &str) -> Result<(&str, (f64, f64)), String> {
+    let Some((column, times)) = text.split_once('@') else {
+        return Ok((text, (f64::NEG_INFINITY, f64::INFINITY)));
+    };
+    let (from, to) =
+        times.split_once("..").ok_or_else(|| format!("`@{times}` is no range of times: write @FROM..TO"))?;
+    let time = |text: &str, none: f64| match text.trim() {
+        "" => Ok(none),
+        text => text.parse::<f64>().ok().filter(|time| time.is_finite()).ok_or_else(|| {
+            format!("`{text}` of `@{times}` is no time: a number of seconds is asked, with a point")
+        }),
+    };
+    let within = (time(from, f64::NEG_INFINITY)?, time(to, f64::INFINITY)?);
+    if within.0 < within.1 {
+        Ok((column, within))
+    } else {
+        Err(format!("`@{times}` is no range of times: it ends before it begins"))
+    }
 }
 
 /// max |a − b| / max |b| over the common times, and its error by those of both.

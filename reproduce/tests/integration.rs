@@ -278,7 +278,7 @@ fn a_check_finds_changed_values_and_grown_errors() {
     );
     let answers = computed(&paper, &Options::default());
     assert!(check(&paper, &answers).unwrap_err().to_string().contains("--accept"));
-    paper.expected = Some(expected(&paper, &answers));
+    paper.expected = Some(expected(&paper, &answers).unwrap());
     let found = check(&paper, &answers).unwrap();
     assert!(found.failed.is_empty() && found.listed.is_empty() && found.compared >= 3, "{found:?}");
     let accepted = paper.expected.clone().unwrap();
@@ -296,8 +296,17 @@ fn a_check_finds_changed_values_and_grown_errors() {
     assert_eq!((far.failed.len(), near.failed.len(), near.listed.len(), grown.failed.len()), (1, 0, 1, 1));
     let value = accepted.lines().find(|line| line.contains("deflection.min")).unwrap();
     let no_number = format!("{}= [nan, 1.0]", value.split("= ").next().unwrap());
-    paper.expected = Some(accepted.replace(value, &no_number));
-    assert_eq!(check(&paper, &answers).unwrap().failed.len(), 1);
+    for error in ["[nan, 1.0]", "[1.0, nan]", "[1.0, inf]", "[1.0, -2.0]"] {
+        paper.expected = Some(accepted.replace(value, &no_number.replace("[nan, 1.0]", error)));
+        assert!(check(&paper, &answers).unwrap_err().to_string().contains("deflection.min"));
+        assert!(expected(&paper, &answers).is_err());
+    }
+    paper.expected = Some(format!("{accepted}\n[curves]\n"));
+    assert!(check(&paper, &answers).unwrap_err().to_string().contains("curves"));
+    // An accepted error that lets anything pass.
+    let lax = format!("{}, 1e300]", value.rsplit_once(", ").unwrap().0);
+    paper.expected = Some(accepted.replace(value, &lax));
+    assert!(check(&paper, &answers).unwrap().failed[0].contains("--accept"));
     paper.expected =
         Some(accepted.replace("\"F1.1\" = \"holds\"", "\"F1.1\" = \"holds\"\n\"F1.9\" = \"holds\""));
     assert_eq!(check(&paper, &answers).unwrap().failed, ["claim F1.9 is gone"]);
@@ -476,6 +485,105 @@ fn what_runs_cannot_be_is_rejected_at_its_line() {
     assert_eq!(found(&many_wrong).lines().filter(|line| line.contains("unknown key")).count(), 2);
 }
 
+/// What says nothing whatever its runs give, and what would be read as something else, is rejected at its line.
+#[test]
+fn items_that_say_nothing_are_rejected_at_their_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let found = |item: &str| {
+        let paper = paper_of(folder.path(), item);
+        sound(&paper, &["F1".to_owned()], &Options::default())
+            .map_or_else(|error| error.to_string(), |()| String::new())
+    };
+    let claim = |rule: &str| format!("{RUNS}[[claim]]\ntext = 'T'\nrule = {rule}\n");
+    let curves = |times: &str| {
+        claim(&format!(
+            "{{ kind = 'agree', runs = ['many', 'few'], quantity = 'tip.deflection{times}', within = 0.01, curves = true }}"
+        ))
+    };
+    let finishes = claim("{ kind = 'finishes', runs = ['few'] }");
+    let plot = "y = 'tip.deflection'";
+    let table = "[table]\ncolumns = [{ title = 'smallest', quantity = 'tip.deflection.min', unit = 'mm' }]\n";
+    assert!(RUNS.contains(table));
+    let cases = [
+        (curves("@0..0,75"), "rule =", "0,75"),
+        (curves("@1"), "rule =", "@FROM..TO"),
+        (curves("@1.5..1"), "rule =", "ends before it begins"),
+        (curves("@nan..1"), "rule =", "no time"),
+        (format!("{finishes}holds = '{{left1}}'\n"), "rule =", "{left1}"),
+        (format!("{finishes}because = 'It is {{of}}.'\n"), "rule =", "{of}"),
+        (claim("{ kind = 'less', left = 1, right = 2 }"), "rule =", "no quantity"),
+        (
+            claim(
+                "{ kind = 'all', rules = [{ kind = 'finishes', runs = ['few'] }, { kind = 'within', of = 1, low = 0, high = 2 }] }",
+            ),
+            "rule =",
+            "no quantity",
+        ),
+        (RUNS.replace(plot, "y = 'tip.deflection'\nfrom = 3\nto = 2"), plot, "from 3 s to 2 s"),
+        (RUNS.replace(plot, "y = 'tip.deflection'\nto = 'few'"), plot, "seconds"),
+        (RUNS.replace(plot, "y = 'tip.deflection'\nruns = []"), plot, "`runs` is empty"),
+        (RUNS.replace("[table]", "[table]\nruns = []"), "[table]", "`runs` is empty"),
+        (RUNS.replace("[[plot]]\ny = 'tip.deflection'\n", ""), "kind = ", "[[plot]]"),
+        (RUNS.replace("kind = 'figure'", "kind = 'table'").replace(table, ""), "kind = ", "[table]"),
+        (RUNS.replace("name = 'few'", "name = 'few'\neach = { n = [3] }"), "name = 'few'", "`n`"),
+    ];
+    for (item, words, said) in cases {
+        let line = item.lines().position(|line| line.contains(words)).unwrap() + 1;
+        let message = found(&item);
+        assert!(
+            message.contains(&format!("F1.toml:{line}: ")) && message.contains(said),
+            "{said}: {message}"
+        );
+    }
+    for item in [curves("@..5"), curves("@1..1.5"), finishes] {
+        assert_eq!(found(&item), "");
+    }
+}
+
+/// A rule that fails while another has no values leaves no word of a sentence open.
+#[test]
+fn a_sentence_has_no_word_left_open() {
+    let rule = "{ kind = 'all', rules = [{ kind = 'less', left = { run = 'breaks', quantity = 'tip.deflection.min' }, right = 0 }, { kind = 'less', left = 0, right = { run = 'many', quantity = 'tip.deflection.min' } }] }";
+    let item =
+        format!("{RUNS}[[claim]]\ntext = 'T'\nfails = '{{left}} {{left1}} {{right2}}'\nrule = {rule}\n");
+    let folder = tempfile::tempdir().unwrap();
+    let paper = paper_of(folder.path(), &item);
+    let answers = of_item(&paper, "F1");
+    let reproduced = Reproduced { paper: &paper, answers: &answers, items: vec!["F1".to_owned()] };
+    let verdicts = reproduced.verdicts();
+    let sentence = &verdicts[0].1.sentence;
+    assert_eq!(verdicts[0].1.word(), "fails");
+    assert!(
+        sentence.starts_with("an unknown value an unknown value -0.") && sentence.contains(" ± "),
+        "{sentence}"
+    );
+}
+
+/// What is accepted of a part of a paper holds at once, whatever stood there of what the paper no longer asks.
+#[test]
+fn what_was_just_accepted_holds() {
+    let folder = tempfile::tempdir().unwrap();
+    let claim = "[[claim]]\ntext = 'T'\nrule = { kind = 'finishes', runs = ['few'] }\n";
+    let mut paper = paper_of(folder.path(), &format!("{RUNS}{claim}"));
+    let mut answers = computed(&paper, &Options::default());
+    let whole = expected(&paper, &answers).unwrap();
+    let stale =
+        whole.replace("[verdicts]", "[verdicts]\n\"F1.2\" = \"holds\"\n\"F9.1\" = \"holds\"").replace(
+            "[values]",
+            "[values]\n\"nothing | run.end\" = [1.0, 0.0]\n\"F1: a to b | x curve-difference\" = [1.0, 0.0]",
+        );
+    paper.expected = Some(stale);
+    answers[1] = None;
+    assert_eq!(check(&paper, &answers).unwrap().failed.len(), 4);
+    let accepted = expected(&paper, &answers).unwrap();
+    assert_eq!(accepted, whole);
+    paper.expected = Some(accepted);
+    assert_eq!(check(&paper, &answers).unwrap().failed, [""; 0]);
+    // What cannot be read is not thrown away.
+    paper.expected = Some("[values".to_owned());
+    assert!(expected(&paper, &answers).unwrap_err().to_string().contains("mend it"));
+}
+
 /// Claims of ours are counted beside those of the paper.
 #[test]
 fn claims_of_ours_are_counted_apart() {
@@ -511,7 +619,7 @@ fn a_changed_curve_fails_the_check() {
     );
     let mut paper = paper_of(folder.path(), &item);
     let answers = computed(&paper, &Options::default());
-    let accepted = expected(&paper, &answers);
+    let accepted = expected(&paper, &answers).unwrap();
     assert!(accepted.contains("F1: few to many | tip.deflection@..5 curve-difference"), "{accepted}");
     paper.expected = Some(accepted);
     assert!(check(&paper, &answers).unwrap().failed.is_empty());
