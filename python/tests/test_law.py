@@ -545,7 +545,7 @@ def test_a_law_that_computes_its_own_case_ends_somewhere(free: flexion.Case) -> 
     cause: BaseException | None = found.value
     while cause is not None and not isinstance(cause, RecursionError):
         cause = cause.__cause__
-    assert cause is not None and deep == 8
+    assert cause is not None and deep == 4
 
 
 SLEEPS = """
