@@ -96,7 +96,7 @@ class Interrupted(KeyboardInterrupt):
         self.result = result
 
     def __reduce__(self) -> tuple[Any, ...]:
-        # Results are not pickled but for sweeps.
+        # Most results are not pickled.
         return type(self), (str(self),)
 
 

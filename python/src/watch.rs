@@ -104,7 +104,7 @@ pub fn interruptible<T: Send + 'static>(
         let next = &mut receive;
         match py.detach(move || next.recv_timeout(INTERVAL)) {
             Ok(computed) => return computed.map_err(|panic| broken(py, panic)),
-            Err(_) if ending() => return Err(faults::internal(py, "Python ends")),
+            Err(_) if ending() => return Err(faults::analysis(py, "Python ended before there was a result")),
             Err(RecvTimeoutError::Timeout) => {
                 py.check_signals().map_err(|raised| faults::interrupted(py, raised))?;
             }
