@@ -229,13 +229,19 @@ function tell(words: string) {
 /** What was last put into the address. */
 let written_ = "";
 let remembering = 0;
+/** Links that are being opened. */
+let following = 0;
+/** Whether the address leads elsewhere than to what is shown. */
+const leads = () => following > 0 || location.hash.slice(1) !== written_;
 
-/** The address says what is shown. */
+/** The address says what is shown, if it leads nowhere else by then. */
 function remember(push = false) {
   clearTimeout(remembering);
   const act = async () => {
+    const before = written_;
+    if (leads()) return;
     const fragment = await link().catch(() => "");
-    if (fragment === written_) return;
+    if (fragment === written_ || before !== written_ || leads()) return;
     written_ = fragment;
     const address = `${location.pathname}${location.search}${fragment && `#${fragment}`}`;
     history[push ? "pushState" : "replaceState"](null, "", address);
@@ -270,12 +276,15 @@ async function follow() {
   stale();
   list([]);
   said("opening …", undefined, "stop");
+  following += 1;
   try {
     const asked = await read(fragment);
     // A newer address is followed instead.
     if (written_ === fragment) await open(asked);
   } catch (error) {
     refuse((error as Error).message);
+  } finally {
+    following -= 1;
   }
 }
 

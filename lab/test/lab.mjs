@@ -65,6 +65,20 @@ const journeys = {
     await page.waitForTimeout(700);
     assert.ok(!first.equals(await pixels()), "the beam moves");
   },
+  async "a link is followed whenever it comes"(page) {
+    // The address is written a while after a case is opened, which no link may fall into.
+    const source = (title) => `title = "${title}"\n[beam]\nlength = "1 m"\n[section]\nkind = "uniform"\nmodulus = "70 GPa"\ndensity = 2700\narea = "1 cm^2"\nsecond-moment = "1e-10 m^4"\n[hub]\nmotion = { kind = "spin-up", speed = "2 rad/s", time = "1 s" }\n[run]\nduration = "1 s"\n`;
+    const to = (title) => page.evaluate((hash) => void (location.hash = hash), `#c=${deflateRawSync(source(title)).toString("base64url")}`);
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    for (let wait = 290; wait < 330; wait += 2) {
+      const titles = [`first of ${wait}`, `second of ${wait}`];
+      await to(titles[0]);
+      await page.waitForTimeout(wait);
+      await to(titles[1]);
+      await page.waitForFunction((title) => document.querySelector("#title").textContent === title && document.querySelector("#stop").hidden, titles[1], { timeout: 10_000 });
+    }
+  },
   async "a slider moves the answer"(page) {
     await page.goto(`${lab}#case=p1_spin_up_4`);
     await answered(page);
