@@ -414,7 +414,8 @@ fn bounded(
         let value = if is_plain { value.to_string() } else { format!("{value:e}") };
         format!("must be {}, but is {value}{space}{unit}", bound.words())
     } else {
-        return Some(value);
+        // −0 and 0 are the same case.
+        return Some(value + 0.0);
     };
     problems.push(Problem::new(path, Some(place.clone()), message));
     None

@@ -8,6 +8,7 @@ use super::files::deck;
 use super::kind::Context;
 use super::kinds::initial::Initial;
 use super::kinds::integrator::Method;
+use super::kinds::name::{PLAIN, is_plain};
 use super::laws::{self, Law, Signals};
 use super::layout::{self, INTEGRATOR};
 use super::problem::{Problem, Problems, Source, inside};
@@ -86,9 +87,9 @@ impl Reading {
         &self.files
     }
 
-    /// Whether both are the same case: the same values in SI, defaults included, and the same bytes of files.
+    /// Whether both are the same case: the same values in SI, defaults included, and the same bytes of files, whatever these are called.
     pub fn means(&self, other: &Reading) -> bool {
-        self.resolved() == other.resolved() && self.files == other.files
+        self.resolved_with_copies() == other.resolved_with_copies() && self.copied().eq(other.copied())
     }
 
     /// As [`Reading::resolved`], beside copies of the tables that the case names: `motion.csv`, `torque.csv` and
@@ -134,18 +135,22 @@ impl Reading {
 
     /// Copies of these files, which name each other by their names among the results.
     pub(super) fn copies(&self) -> Vec<(Artifact, Vec<u8>)> {
+        self.copied().filter_map(|(artifact, bytes)| Some((artifact?, bytes))).collect()
+    }
+
+    /// The bytes of these copies; of a file that is not copied they are its own.
+    fn copied(&self) -> impl Iterator<Item = (Option<Artifact>, Vec<u8>)> {
         let tables = self.tables();
         let keys: Vec<String> = tables.iter().map(|(key, _)| key.clone()).collect();
-        let copy = |(key, bytes): (String, &[u8])| {
+        tables.into_iter().map(move |(key, bytes)| {
             let blade = resolved::of_blade(&key);
             let blade = if keys.contains(&blade) { resolved::copy(&blade, &keys) } else { None };
             let bytes = blade.map_or_else(
                 || bytes.to_vec(),
                 |blade| deck::with_blade_file(bytes, &blade.file_name()).into_bytes(),
             );
-            Some((resolved::copy(&key, &keys)?, bytes))
-        };
-        tables.into_iter().filter_map(copy).collect()
+            (resolved::copy(&key, &keys), bytes)
+        })
     }
 
     /// The files that the case is read from: its own and all that it names.
@@ -200,6 +205,16 @@ impl Reading {
         if let (Initial::Restart(_), false) = (&self.case.initial, laws.is_empty()) {
             let message = "a run with laws of a program begins at t = 0: what they remember of an earlier run is in no file";
             return Err(self.problem("initial.kind", message));
+        }
+        for law in &laws {
+            let own = law.load.iter().map(|_| (&law.name, "law"));
+            let states = law.states.iter().map(|state| (&state.name, "state"));
+            if let Some((name, what)) = own.chain(states).find(|(name, _)| !name.split('.').all(is_plain)) {
+                let message = format!(
+                    "a {what} is called {name:?}, which cannot stand in the name of a column: {PLAIN}"
+                );
+                return Err(self.problem("", message));
+            }
         }
         let loads: Vec<(String, bool)> =
             laws.iter().filter_map(|law| Some((law.load.clone()?, true))).collect();

@@ -109,7 +109,7 @@ class Case:
         return self._case.means(other._case)
 
     def __hash__(self) -> int:
-        return hash(self._case.resolved())
+        return hash(self._case.shared())
 
     def __reduce__(self) -> tuple[Any, ...]:
         core = self._case

@@ -125,6 +125,11 @@ impl Case {
         Arc::ptr_eq(&self.reading, &other.reading) || self.reading.means(&other.reading)
     }
 
+    /// A text that cases of the same meaning share.
+    fn shared(&self) -> String {
+        self.reading.resolved_with_copies()
+    }
+
     /// Builds all that a run needs, and returns what its reader should know.
     fn check(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let reading = Arc::clone(&self.reading);

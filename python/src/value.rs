@@ -51,10 +51,13 @@ pub fn value(given: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Val
         return Ok(Value::Table(table(mapping, path, depth)?));
     }
     // Arrays and scalars of NumPy, by the values of Python that they stand for.
-    if let Ok(plain) = given.call_method0("tolist")
-        && !plain.is(given)
-    {
-        return value(&plain, path, depth + 1);
+    if let Ok(plain) = given.call_method0("tolist") {
+        // A number of more digits than those of Python has is none of these, and rounded to one.
+        return if plain.get_type().is(given.get_type()) {
+            number(plain.extract()?, path)
+        } else {
+            value(&plain, path, depth + 1)
+        };
     }
     if let Ok(list) = given.cast::<PySequence>()
         && !given.hasattr("decode")?

@@ -25,6 +25,7 @@ def test_a_dict_a_text_and_a_file_are_the_same_case(arm: flexion.Case, tmp_path:
 def test_equality_is_of_meaning_and_not_of_spelling(arm: flexion.Case) -> None:
     assert arm == arm.with_("beam.length", "10000 mm") == arm.with_("beam.length", 10)
     assert arm != arm.with_("beam.length", "10.001 m")
+    assert arm.with_("gravity", [0.0, -9.81]) == arm.with_("gravity", [-0.0, -9.81])
     assert (arm == 3) is False
     assert len({arm, arm.with_("beam.length", 10.0), arm.with_("beam.length", 11)}) == 2
 
@@ -48,6 +49,21 @@ def test_values_may_be_those_of_numpy(arm: flexion.Case) -> None:
     assert arm.with_("gravity", np.array([0.0, -9.81])) == arm.with_("gravity", [0, -9.81])
     assert arm.with_("basis.elements", np.int64(7)) == arm.with_("basis.elements", 7)
     assert arm.with_("gravity", (0, -9.81)) == arm.with_("gravity", [0.0, "-9.81 m/s^2"])
+    assert arm.with_("beam.length", np.longdouble(10)) == arm
+
+
+def test_files_of_the_same_bytes_are_the_same_under_any_name(verification: Path, tmp_path: Path) -> None:
+    source = verification / "modes_blade_nrel_5mw"
+    case = flexion.Case(source)
+    text = (source / "case.toml").read_text()
+    assert '"blade.dat"' in text
+    (tmp_path / "case.toml").write_text(text.replace('"blade.dat"', '"another.dat"'))
+    data = (source / "blade.dat").read_bytes()
+    (tmp_path / "another.dat").write_bytes(data)
+    other = flexion.Case(tmp_path)
+    assert other == case and hash(other) == hash(case)
+    (tmp_path / "another.dat").write_bytes(data + b"\n")
+    assert flexion.Case(tmp_path) != case
 
 
 def test_a_pickled_case_carries_the_bytes_of_its_files(verification: Path, tmp_path: Path) -> None:

@@ -568,3 +568,14 @@ def test_python_may_end_while_a_law_sleeps_in_another_thread(verification: Path)
     words = [sys.executable, "-c", SLEEPS, str(verification / "p1_spin_up_4")]
     done = subprocess.run(words, capture_output=True, text=True, timeout=60)
     assert (done.returncode, done.stdout.strip()) == (0, "ends"), done.stderr
+
+
+def test_names_of_laws_stand_in_names_of_columns(arm: flexion.Case) -> None:
+    def push(name: str, **states: float) -> None:
+        arm.run(laws={name: flexion.law(lambda t, state: 1.0, load={"on": "tip", "force": [0, 1]}, states=states)})
+
+    for name in ["a [m]", "a,b", "", "x..y", "x\n"]:
+        with pytest.raises(flexion.CaseError, match="cannot stand in the name of a column"):
+            push(name)
+        with pytest.raises(flexion.CaseError, match="a state is called"):
+            push("push", **{name: 0.0})

@@ -11,14 +11,20 @@ const TAKEN: [&str; 8] =
 pub(super) const NAME: Field<Option<String>> =
     text().called("name", "name, for messages and columns; that of its number if left out");
 
+/// How a name is written.
+pub(crate) const PLAIN: &str = "begin with a letter, and go on with letters, digits, `-` and `_`";
+
+/// Whether columns can have a name in theirs.
+pub(crate) fn is_plain(name: &str) -> bool {
+    name.starts_with(char::is_alphabetic) && name.chars().all(|c| c.is_alphanumeric() || c == '-' || c == '_')
+}
+
 /// The name of a part that is written, empty where it is left out; `also` are names that parts of this sort cannot have.
 pub(super) fn name(written: Option<String>, also: &[&str]) -> Made<String> {
     let Some(name) = written else { return Ok(String::new()) };
-    let plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-    if !name.starts_with(char::is_alphabetic) || !name.chars().all(plain) {
+    if !is_plain(&name) {
         let message = format!("`{name}` cannot begin the name of a column");
-        let help = "begin with a letter, and go on with letters, digits, `-` and `_`";
-        return Err(Fault::new("name", message).help(help).into());
+        return Err(Fault::new("name", message).help(PLAIN).into());
     }
     if TAKEN.contains(&name.as_str()) || also.contains(&name.as_str()) {
         let message = format!("`{name}` has a meaning of its own in places and columns");
