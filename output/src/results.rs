@@ -42,7 +42,9 @@ impl Results {
         }
         let times = trajectory.times();
         if times.is_empty() {
-            return Err(unreadable("it holds no records".to_owned()));
+            let why = path.is_dir().then(|| caution(path, times)).flatten();
+            let why = why.map(|why| format!(": {why}")).unwrap_or_default();
+            return Err(unreadable(format!("it holds no records{why}")));
         }
         if let Some(pair) = times.windows(2).find(|pair| pair[1] < pair[0]) {
             return Err(unreadable(format!("its times do not ascend after t = {:e} s", pair[0])));

@@ -579,3 +579,16 @@ def test_names_of_laws_stand_in_names_of_columns(arm: flexion.Case) -> None:
             push(name)
         with pytest.raises(flexion.CaseError, match="a state is called"):
             push("push", **{name: 0.0})
+
+
+def test_a_run_that_ends_at_its_start_is_kept_and_says_why_it_holds_nothing(free: flexion.Case, tmp_path: Path) -> None:
+    def breaks(t: float, state: flexion.State) -> float:
+        raise ZeroDivisionError("no torque")
+
+    with pytest.raises(flexion.RunError) as raised:
+        free.run(laws={"hub.torque": flexion.law(breaks)})
+    run = raised.value.result
+    assert len(run.times) == 0 and math.isnan(float(run["hub.angle"].max))
+    folder = run.save(tmp_path / "run")
+    with pytest.raises(flexion.AnalysisError, match="holds no records: .* failed: .*ZeroDivisionError: no torque"):
+        flexion.load(folder)
