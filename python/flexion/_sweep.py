@@ -203,7 +203,7 @@ def _values(values: Any) -> str:
     if isinstance(values, str):
         return values
     listed = values.tolist() if isinstance(values, np.ndarray) else values
-    if not isinstance(listed, Iterable) or isinstance(listed, Mapping):
+    if not isinstance(listed, Iterable) or isinstance(listed, Mapping | bytes | bytearray):
         listed = [listed]
     return ",".join(_item(value) for value in listed)
 

@@ -418,3 +418,9 @@ def test_a_scheduler_that_is_killed_loses_no_row(
     assert scheduler.wait(10) == -signal.SIGKILL
     assert_same(expected, found)
     assert len(list(folder.glob("part-*.parquet"))) == 100
+
+
+@pytest.mark.parametrize("given", [b"70 GPa", bytearray(b"7"), [b"70 GPa"]])
+def test_bytes_are_no_values(arm: flexion.Case, given: Any) -> None:
+    with pytest.raises(TypeError, match="type byte"):
+        flexion.sweep(arm, {"section.modulus": given}, quantities=QUANTITY)
