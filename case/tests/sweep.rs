@@ -432,7 +432,7 @@ fn a_run_beyond_the_limit_of_its_steps_is_given_up() {
     let limited = all(&made(inputs(), Options { limit: Some(steps[0]), ..PLAIN }).unwrap());
     assert_eq!((limited[0].status, limited[1].status), (Status::Finished, Status::GivenUp));
     let reason = limited[1].reason.as_ref().unwrap();
-    assert!(reason.starts_with(&format!("given up after {} steps at t = ", steps[0])), "{reason}");
+    assert!(reason.starts_with(&format!("given up: more than {} steps at t = ", steps[0])), "{reason}");
     assert!(limited[1].quantities.iter().all(Option::is_none));
 }
 

@@ -268,7 +268,7 @@ class Case:
         """The equations of small motions about the equilibrium in steady rotation at a speed [rad/s], for control.
 
         An input is the amplitude of a load, ``inputs={"push": {"on": "tip", "force": [0, 1], "axes": "hub"}}``; ``"hub.torque": None`` is that
-        of a free hub of a beam. Outputs are columns of a run that are functions of the motion.
+        of the hub of a beam with ``free_hub``. Outputs are columns of a run that are functions of the motion.
         """
         if isinstance(outputs, str):
             raise TypeError(f"`outputs` is a list of columns: write [{outputs!r}]")

@@ -52,12 +52,13 @@ pub fn value(given: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Val
     }
     // Arrays and scalars of NumPy, by the values of Python that they stand for.
     if let Ok(plain) = given.call_method0("tolist") {
-        // A number of more digits than those of Python has is none of these, and rounded to one.
-        return if plain.get_type().is(given.get_type()) {
-            number(plain.extract()?, path)
-        } else {
-            value(&plain, path, depth + 1)
-        };
+        if !plain.get_type().is(given.get_type()) {
+            return value(&plain, path, depth + 1);
+        }
+        // A real number of more digits than those of Python have is rounded to one.
+        if plain.hasattr("is_integer")? {
+            return number(plain.extract()?, path);
+        }
     }
     if let Ok(list) = given.cast::<PySequence>()
         && !given.hasattr("decode")?

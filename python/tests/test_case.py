@@ -50,6 +50,9 @@ def test_values_may_be_those_of_numpy(arm: flexion.Case) -> None:
     assert arm.with_("basis.elements", np.int64(7)) == arm.with_("basis.elements", 7)
     assert arm.with_("gravity", (0, -9.81)) == arm.with_("gravity", [0.0, "-9.81 m/s^2"])
     assert arm.with_("beam.length", np.longdouble(10)) == arm
+    for complex_number in (np.complex128(10 + 2j), np.clongdouble(10 + 2j)):
+        with pytest.raises(TypeError, match="beam.length: a value of the type c"):
+            arm.with_("beam.length", complex_number)
 
 
 def test_files_of_the_same_bytes_are_the_same_under_any_name(verification: Path, tmp_path: Path) -> None:

@@ -112,6 +112,8 @@ def test_a_free_hub_is_driven_by_its_torque(arm: flexion.Case) -> None:
     assert transfer[0, 0] == pytest.approx(1 / (inertia * s), rel=1e-4)
     with pytest.raises(flexion.AnalysisError, match=r"hub\.torque"):
         arm.linearize(0.0, inputs={"hub.torque": None})
+    with pytest.raises(flexion.AnalysisError, match="free_hub=True"):
+        free.linearize(0.0, inputs={"hub.torque": None})
 
 
 def test_what_is_no_input_or_output_is_refused(arm: flexion.Case) -> None:

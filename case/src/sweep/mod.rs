@@ -338,7 +338,9 @@ impl Sweep {
         if run.status != flexion_results::Status::Finished {
             row.status = count.ended.unwrap_or(Status::Failed);
             row.reason = match row.status {
-                Status::GivenUp => Some(format!("given up after {limit} steps at t = {:.6} s", run.state.t)),
+                Status::GivenUp => {
+                    Some(format!("given up: more than {limit} steps at t = {:.6} s", run.state.t))
+                }
                 _ => run.message.clone(),
             };
             return;

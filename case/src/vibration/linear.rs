@@ -137,6 +137,9 @@ impl Reading {
         let hub = system.size().v.checked_sub(1).filter(|_| free && self.case.hub_beam().is_some());
         match hub {
             Some(hub) if name == HUB => Ok((0..=hub).map(|i| f64::from(u8::from(i == hub))).collect()),
+            None if name == HUB && self.case.hub_beam().is_some() => Err(VibrationError::Request(format!(
+                "the input `{name}` needs a free hub, and the hub keeps its speed: ask for one that is free (`free_hub=True` in Python)"
+            ))),
             _ => Err(VibrationError::Request(format!(
                 "the input `{name}` needs a load, `{{on = \"tip\", force = [0, 1], axes = \"hub\"}}`; `{HUB}` is that of a beam on a free \
                  hub alone"
