@@ -2,8 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
+use flexion::analysis::campbell::{Branch, Point};
 use flexion::analysis::modes::Mode;
-use flexion_case::{ModesRequest, Reading, parse};
+use flexion_case::{DiagramRequest, ModesRequest, Reading, parse};
 use flexion_results::{Frequencies, Units};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -41,19 +42,20 @@ fn modes(reading: &Reading, speed: f64, count: usize) -> (Vec<f64>, Vec<String>)
 
 /// Rayleigh's shaft: whirl at ω with ω² (1 + j₂ δ) − j₁ δ Ω ω = ω₀², δ = (i nπ/L)², where j₂ = 1 and j₁ = 2 are the moments of inertia in bending and about
 /// the axis over ρI, seen from the shaft at |ω − Ω|.
-fn rayleigh(speed: f64, [polar, bending]: [f64; 2]) -> Vec<f64> {
-    let [length, radius, modulus, density] = SHAFT;
-    let mut all: Vec<f64> = [1.0, 2.0]
-        .into_iter()
-        .flat_map(|n| {
-            let (gyration, k) = (0.5 * radius, n * PI / length);
-            let (delta, still) = ((gyration * k).powi(2), gyration * k * k * (modulus / density).sqrt());
-            let (a, b) = (1.0 + bending * delta, 0.5 * polar * delta * speed);
-            [1.0, -1.0].map(|sign| ((b + sign * (b * b + a * still * still).sqrt()) / a - speed).abs())
-        })
-        .collect();
+fn rayleigh(speed: f64, inertia: [f64; 2]) -> Vec<f64> {
+    let whirls = [1.0, 2.0].into_iter().flat_map(|n| [1.0, -1.0].map(|sign| whirl(n, sign, speed, inertia)));
+    let mut all: Vec<f64> = whirls.collect();
     all.sort_by(f64::total_cmp);
     all
+}
+
+/// The n-th whirl, forward or backward by its sign.
+fn whirl(n: f64, sign: f64, speed: f64, [polar, bending]: [f64; 2]) -> f64 {
+    let [length, radius, modulus, density] = SHAFT;
+    let (gyration, k) = (0.5 * radius, n * PI / length);
+    let (delta, still) = ((gyration * k).powi(2), gyration * k * k * (modulus / density).sqrt());
+    let (a, b) = (1.0 + bending * delta, 0.5 * polar * delta * speed);
+    ((b + sign * (b * b + a * still * still).sqrt()) / a - speed).abs()
 }
 
 /// With its rotary inertia the shaft is Rayleigh's. Without it there is the polar moment alone, which is further from that than no moment at all, and a caution.
@@ -145,4 +147,41 @@ fn one_beam_in_space_has_frequencies_without_dimension() {
     let unit = shaft("", "[1, 0, 0]").case.dimensionless().unwrap();
     let expected = length * length / (0.5 * radius) * (density / modulus).sqrt();
     assert!((unit.factor / expected - 1.0).abs() < 1e-12, "{} {expected}", unit.factor);
+}
+
+/// Each branch of a shaft that is free to turn about itself is one whirl, seen from the shaft at |ω − Ω|, while others cross it and some pass
+/// through zero; the rotation without stiffness, which G does not see, stays at zero throughout.
+#[test]
+fn the_branches_of_a_shaft_that_is_free_to_turn_are_its_whirls() {
+    let reading = shaft(", rotary-inertia = true", "[1, 0, 0]");
+    let units = Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS };
+    let speeds = (0..=20).map(|i| 250.0 * f64::from(i)).collect();
+    let request =
+        DiagramRequest { speeds, count: 4, revolutions: 1, margin: 5.0, free_hub: false, threads: 1, units };
+    let found = reading.campbell(&request, &|_| true).unwrap_or_else(|error| panic!("{error}"));
+    let branches = &found.campbell.branches;
+    assert!(
+        branches[0].points.iter().all(|point| point.mode.frequency() == 0.0),
+        "{:?}",
+        frequencies(&branches[0])
+    );
+    let mut whirls = Vec::new();
+    for n in [1.0, 2.0] {
+        for sign in [1.0, -1.0] {
+            whirls.push(move |speed| whirl(n, sign, speed, [2.0, 1.0]));
+        }
+    }
+    for whirl in whirls {
+        let off = |branch: &Branch| {
+            let off = |point: &Point| (point.mode.frequency() - whirl(point.speed)).abs();
+            branch.points.iter().map(off).fold(0.0, f64::max)
+        };
+        let nearest = branches.iter().map(off).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 0.1, "off by {nearest} rad/s");
+    }
+}
+
+/// Frequencies [rad/s] at all speeds.
+fn frequencies(branch: &Branch) -> Vec<f64> {
+    branch.points.iter().map(|point| point.mode.frequency()).collect()
 }

@@ -14,6 +14,7 @@
 //!
 //! Source: L. Meirovitch, *AIAA Journal* 12 (1974) 1337–1342, doi:10.2514/3.49486 (modes of gyroscopic systems).
 
+use super::modes::Mode;
 use super::solved::Solved;
 use crate::linalg::Matrix;
 use crate::linalg::eigen::Sparse;
@@ -21,6 +22,8 @@ use num_complex::Complex64;
 
 /// Size of n over that of its terms, below which it counts as zero.
 const VANISHING: f64 = 1e-3;
+/// Size of n over twice the highest frequency, below which it is rounding: that of a motion without stiffness, which G does not see either.
+const ROUNDING: f64 = 1e-9;
 
 /// xᴴ y
 pub(super) fn product(x: &[Complex64], y: &[Complex64]) -> Complex64 {
@@ -52,7 +55,8 @@ fn norm(of: &Solved, i: usize) -> Option<f64> {
     let twice = 2.0 * mode.frequency();
     let gyroscopic = product(&mode.vector, of.gyroscopic.get(i)?).im;
     let n = twice + gyroscopic;
-    (n.abs() > VANISHING * (twice + gyroscopic.abs())).then_some(n)
+    let highest = of.modes.iter().map(Mode::frequency).fold(0.0, f64::max);
+    (n.abs() > VANISHING * (twice + gyroscopic.abs()) && n.abs() > ROUNDING * 2.0 * highest).then_some(n)
 }
 
 /// Likeness of mode `i` at one speed and mode `j` at another, from 0 to 1.
