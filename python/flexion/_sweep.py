@@ -205,12 +205,7 @@ def _values(values: Any) -> str:
     listed = values.tolist() if isinstance(values, np.ndarray) else values
     if not isinstance(listed, Iterable) or isinstance(listed, Mapping | bytes | bytearray):
         listed = [listed]
-    return ",".join(_item(value) for value in listed)
-
-
-def _item(value: Any) -> str:
-    plain = isinstance(value, str) and value and not any(c in value for c in ",\"'[]{}:()\n")
-    return value if plain else _core.item(value)
+    return ",".join(_core.item(value) for value in listed)
 
 
 def _table(table: Any) -> tuple[str, str] | None:
@@ -236,7 +231,7 @@ def _table(table: Any) -> tuple[str, str] | None:
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(names)
-    writer.writerows([value if isinstance(value, str) else _core.item(value) for value in row] for row in rows)
+    writer.writerows([_core.item(value) for value in row] for row in rows)
     return "table", text.getvalue()
 
 

@@ -54,6 +54,22 @@ def test_rows_are_those_of_single_runs(arm: flexion.Case, whole: flexion.Sweep) 
         whole[QUANTITY][0] = 0.0
 
 
+def test_texts_of_python_are_texts_of_the_case(arm: flexion.Case, tmp_path: Path) -> None:
+    texts = ["1", "true", "", " lead ", "a'b\"c", 'say "hi"', "two\nlines", "back\\slash", "50:60:3", "normal(1,2)", "x]y{", "a, b"]
+    short = arm.with_("run.duration", 0.01)
+    listed = flexion.sweep(short, {"title": texts}, QUANTITY, errors="none", folder=tmp_path / "kept", part=5)
+    assert listed["title"].tolist() == texts and listed.failures == 0
+    kept = flexion.sweep(short, {"title": texts}, QUANTITY, errors="none", folder=tmp_path / "kept", part=5)
+    assert kept["wall_time"].tolist() == listed["wall_time"].tolist() and kept["title"].tolist() == texts
+    table = {"title": texts, "section.modulus": ["60 GPa"] * len(texts)}
+    tabled = flexion.sweep(short, table=table, quantities=QUANTITY, errors="none")
+    assert tabled["title"].tolist() == texts and set(tabled["section.modulus"]) == {60e9}
+    with pytest.raises(flexion.CaseError, match="some values have a unit and others none"):
+        flexion.sweep(short, {"section.modulus": ["60 GPa", 7e10]}, QUANTITY)
+    with pytest.raises(flexion.CaseError, match="a text is not what this key takes"):
+        flexion.sweep(short, {"basis.elements": ["5"]}, QUANTITY)
+
+
 def test_threads_processes_and_order_change_no_bit(arm: flexion.Case, whole: flexion.Sweep) -> None:
     assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, threads=1))
     assert_same(whole, flexion.sweep(arm, VARY, QUANTITY, threads=3, part=2))

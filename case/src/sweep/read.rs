@@ -59,8 +59,7 @@ impl Takes {
             Takes::Integer => text.parse::<i64>().ok()? as f64,
             Takes::Number => text.parse().ok()?,
             Takes::Quantity(measure) => {
-                let plain = ['"', '\''].iter().find_map(|q| text.strip_prefix(*q)?.strip_suffix(*q));
-                let plain = plain.unwrap_or(text);
+                let plain = unquoted(text);
                 plain.parse().ok().or_else(|| units::parse(plain, measure).ok())?
             }
         };
@@ -437,12 +436,13 @@ impl<'a> Reader<'a> {
     /// Refuses values of which some have a unit and others none.
     fn one_unit(&mut self, takes: Takes, argument: &dyn Fn() -> String, texts: &[String]) -> Option<()> {
         let Takes::Quantity(measure) = takes else { return Some(()) };
-        let plain = |text: &String| {
+        let plain = |text: &str| {
             let end = number_end(text);
             end == text.len() && text.parse() != Ok(0.0)
         };
-        let bare = texts.iter().filter(|text| plain(text)).count();
-        let united = texts.iter().filter(|text| !plain(text) && text.parse::<f64>().is_err()).count();
+        let texts = || texts.iter().map(|text| unquoted(text));
+        let bare = texts().filter(|text| plain(text)).count();
+        let united = texts().filter(|text| !plain(text) && text.parse::<f64>().is_err()).count();
         if bare == 0 || united == 0 {
             return Some(());
         }
@@ -474,6 +474,12 @@ impl<'a> Reader<'a> {
         }
         Some(Levels::Range { ends: [from, to], count, whole })
     }
+}
+
+/// A text without the quotation marks around it.
+fn unquoted(text: &str) -> &str {
+    let marks = ['"', '\''];
+    marks.into_iter().find_map(|mark| text.strip_prefix(mark)?.strip_suffix(mark)).unwrap_or(text)
 }
 
 /// Whether a change sets a key that ends as another does.

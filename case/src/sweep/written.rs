@@ -85,25 +85,46 @@ pub(super) fn number_end(text: &str) -> usize {
     ends.into_iter().find(|end| is_number(&text[..*end])).unwrap_or(0)
 }
 
-/// The parts between separators that stand in no quotation marks and no brackets.
+/// The parts between separators that stand in no string of TOML and no brackets.
 fn split(text: &str, separator: char) -> Vec<&str> {
-    let (mut parts, mut start, mut depth, mut quote) = (Vec::new(), 0, 0usize, None);
-    for (at, c) in text.char_indices() {
-        match (quote, c) {
-            (Some(open), c) if c == open => quote = None,
-            (Some(_), _) => {}
-            (None, '"' | '\'') => quote = Some(c),
-            (None, '(' | '[' | '{') => depth += 1,
-            (None, ')' | ']' | '}') => depth = depth.saturating_sub(1),
-            (None, c) if c == separator && depth == 0 => {
+    let (mut parts, mut start, mut depth, mut at) = (Vec::new(), 0, 0usize, 0);
+    while let Some(c) = text[at..].chars().next() {
+        let mut next = at + c.len_utf8();
+        match c {
+            '"' | '\'' => next = string_end(text, at),
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth = depth.saturating_sub(1),
+            c if c == separator && depth == 0 => {
                 parts.push(text[start..at].trim());
-                start = at + c.len_utf8();
+                start = next;
             }
             _ => {}
         }
+        at = next;
     }
     parts.push(text[start..].trim());
     parts
+}
+
+/// Where the string of TOML ends that begins with a mark at `start`: one of a line or of several, with escapes where the mark is `"`.
+fn string_end(text: &str, start: usize) -> usize {
+    let mark = &text[start..=start];
+    let of_lines = text[start..].starts_with(&mark.repeat(3));
+    let close = if of_lines { mark.repeat(3) } else { mark.to_owned() };
+    let mut at = start + close.len();
+    while let Some(c) = text[at..].chars().next() {
+        if text[at..].starts_with(&close) {
+            at += close.len();
+            // Up to two marks may stand before the three that close.
+            let further = text[at..].chars().take(2).take_while(|c| of_lines && mark.starts_with(*c));
+            return at + further.count();
+        }
+        at += c.len_utf8();
+        if c == '\\' && mark == "\"" {
+            at += text[at..].chars().next().map_or(0, char::len_utf8);
+        }
+    }
+    text.len()
 }
 
 #[cfg(test)]
@@ -127,7 +148,17 @@ mod tests {
             values("{kind='constant', speed=2}, {kind='free'}"),
             list(&["{kind='constant', speed=2}", "{kind='free'}"])
         );
-        assert_eq!(values("\"a, b\""), list(&["\"a, b\""]));
+        for text in [
+            r#""a, b""#,
+            r#""a\", b""#,
+            r"'a\'",
+            r#""""a", 'b"""""#,
+            r#""""#,
+            "'''it's, \"a'''",
+            "\"\"\"\na\nb\"\"\"",
+        ] {
+            assert_eq!(values(&format!("{text}, c")), list(&[text, "c"]));
+        }
         assert_eq!(values("sin(t)"), list(&["sin(t)"]));
         let normal =
             Written::Distribution("normal".to_owned(), vec!["70 GPa".to_owned(), "1 GPa".to_owned()]);
