@@ -10,7 +10,7 @@
 //! ```
 //!
 //! Friction rows that stand together and share their normal row form a disc. The rows are relaxed one after the other
-//! (projected Gauss–Seidel), Λᵢ ← proj(Λᵢ − uᵢ/Wᵢᵢ), until no multiplier changes by more than rounding. For
+//! (projected Gauss–Seidel), Λᵢ ← proj(Λᵢ − uᵢ/Wᵢᵢ), a disc as one vector, until no multiplier changes by more than rounding. For
 //! contacts without friction the limit is the solution of the linear complementarity problem, unique in u.
 //!
 //! Source: Jean (1999, doi 10.1016/S0045-7825(98)00383-1).
@@ -82,12 +82,17 @@ pub fn solve(laws: &[RowLaw], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Resul
             let mut before = [0.0; 3];
             let rows = rows.min(before.len());
             before[..rows].copy_from_slice(&lambda[i..i + rows]);
-            let stiffest = (i..i + rows).fold(0.0_f64, |x, k| x.max(w[k * m + k]));
-            for k in i..i + rows {
-                let u = b[k] + w[k * m..(k + 1) * m].iter().zip(&*lambda).map(|(w, x)| w * x).sum::<f64>();
-                if stiffest > 0.0 {
-                    lambda[k] -= u / stiffest;
-                }
+            // The rows of a disc step together, by the velocities at the same multipliers: one after the other they would end where
+            // friction is not opposite to sliding. The largest sum of a row of the block bounds its largest eigenvalue.
+            let stiffest = (i..i + rows)
+                .map(|k| w[k * m + i..k * m + i + rows].iter().map(|w| w.abs()).sum::<f64>())
+                .fold(0.0_f64, f64::max);
+            let mut u = [0.0; 3];
+            for (u, k) in u[..rows].iter_mut().zip(i..) {
+                *u = b[k] + w[k * m..(k + 1) * m].iter().zip(&*lambda).map(|(w, x)| w * x).sum::<f64>();
+            }
+            if stiffest > 0.0 {
+                lambda[i..i + rows].iter_mut().zip(u).for_each(|(x, u)| *x -= u / stiffest);
             }
             match laws[i] {
                 RowLaw::Free => {}
@@ -145,5 +150,19 @@ mod tests {
         assert_eq!(x, [2.0, -0.6, -0.8]);
         solve(&laws(0.25), &w, &[-2.0, 0.6, 0.8], &mut x).unwrap();
         assert!((x[1] + 0.3).abs() < 1e-15 && (x[2] + 0.4).abs() < 1e-15, "{x:?}");
+    }
+
+    /// A body that slides obliquely, W of which couples the two directions and the normal: u = b + W Λ is opposite to Λ on the rim.
+    #[test]
+    fn friction_of_a_disc_with_coupled_rows_is_opposite_to_sliding() {
+        let w = [1.0, 0.2, -0.1, 0.2, 2.0, 0.9, -0.1, 0.9, 1.0];
+        let b = [-2.0, 1.5, -2.5];
+        let friction = RowLaw::Friction { coefficient: 0.3, normal: 0 };
+        let mut x = [0.0; 3];
+        solve(&[RowLaw::Unilateral, friction, friction], &w, &b, &mut x).unwrap();
+        let u: Vec<f64> = (0..3).map(|i| b[i] + (0..3).map(|j| w[3 * i + j] * x[j]).sum::<f64>()).collect();
+        assert!(x[0] > 0.0 && u[0].abs() < 1e-14, "{x:?} {u:?}");
+        assert!((x[1].hypot(x[2]) - 0.3 * x[0]).abs() < 1e-14, "{x:?}");
+        assert!((x[1] * u[2] - x[2] * u[1]).abs() < 1e-14 && x[1] * u[1] + x[2] * u[2] < 0.0, "{x:?} {u:?}");
     }
 }
