@@ -88,12 +88,17 @@ fn written(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
     let (made, between) = beam.deck(&ends, straight)?;
     let title = format!("{}: beam {}", reading.case.title, beam.name);
     let title: String = title.trim_start_matches(": ").split_whitespace().collect::<Vec<_>>().join(" ");
+    let mut left_out = [0.0; 2];
     let (own, texts) = match arguments.format {
         Format::BeamDyn => {
             let texts = deck::write_beamdyn(&made, &title, &Artifact::BeamDynBlade.file_name())?;
             (Artifact::BEAMDYN, texts.to_vec())
         }
-        Format::Hawc2 => (Artifact::HAWC2, vec![deck::write_hawc2(&made, &title)]),
+        Format::Hawc2 => {
+            let (text, of_inertia) = deck::write_hawc2(&made, &title);
+            left_out = of_inertia;
+            (Artifact::HAWC2, vec![text])
+        }
     };
     let directory = Directory::create_for(own, &arguments.output, arguments.force, &reading.inputs())
         .map_err(|error| error.to_string())?;
@@ -126,6 +131,16 @@ fn written(arguments: &Arguments, reading: &Reading) -> Result<bool, String> {
         rows.push(row("between stations", text));
     }
     rows.extend(beam.not_in_deck(straight).into_iter().map(|what| row("not written", what)));
+    let of_inertia = [
+        "the product of inertia about the axes of bending",
+        "what the polar moment of inertia has beside their sum",
+    ];
+    for (what, part) in of_inertia.into_iter().zip(left_out).filter(|(_, part)| *part > SAID) {
+        rows.push(row(
+            "not written",
+            format!("{what}, up to {part:.1e} of the sum of both moments: a st file has no column for it"),
+        ));
+    }
     screen::print(&format!("{}\n{}", screen::table(&rows), again(beam, arguments.format)));
     Ok(true)
 }

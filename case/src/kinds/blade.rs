@@ -166,7 +166,6 @@ impl Beam {
         if straight {
             say(!is_straight, "line and twist, which HAWC2 has in `c2_def`");
             say(has_times || stiffness > 0.0, "damping, which HAWC2 has in the file of the turbine");
-            say(true, "any product of inertia about the axes of bending: a st file has no column for it");
         } else {
             say(
                 has_times && stiffness > 0.0,

@@ -22,7 +22,7 @@ use num_complex::Complex64;
 
 /// Size of n over that of its terms, below which it counts as zero.
 const VANISHING: f64 = 1e-3;
-/// Size of n over twice the highest frequency, below which it is rounding: that of a motion without stiffness, which G does not see either.
+/// Size of 2ω + |x||G x| over twice the highest frequency, below which it is rounding: that of a motion without stiffness which G does not see.
 const ROUNDING: f64 = 1e-9;
 
 /// xᴴ y
@@ -51,12 +51,14 @@ pub(super) fn gyroscopic<'a>(
 
 /// n of mode `i`, unless it vanishes.
 fn norm(of: &Solved, i: usize) -> Option<f64> {
-    let mode = &of.modes[i];
+    let (mode, gx) = (&of.modes[i], of.gyroscopic.get(i)?);
     let twice = 2.0 * mode.frequency();
-    let gyroscopic = product(&mode.vector, of.gyroscopic.get(i)?).im;
+    let gyroscopic = product(&mode.vector, gx).im;
     let n = twice + gyroscopic;
     let highest = of.modes.iter().map(Mode::frequency).fold(0.0, f64::max);
-    (n.abs() > VANISHING * (twice + gyroscopic.abs()) && n.abs() > ROUNDING * 2.0 * highest).then_some(n)
+    let size = |x: &[Complex64]| product(x, x).re.sqrt();
+    let is_seen = twice + size(&mode.vector) * size(gx) > ROUNDING * 2.0 * highest;
+    (is_seen && n.abs() > VANISHING * (twice + gyroscopic.abs())).then_some(n)
 }
 
 /// Likeness of mode `i` at one speed and mode `j` at another, from 0 to 1.

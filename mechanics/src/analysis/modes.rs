@@ -85,6 +85,8 @@ pub struct Shares {
     pub chord: f64,
     /// Across, out of the plane of rotation.
     pub flap: f64,
+    /// Across a beam that rotates about itself: a shaft.
+    pub bending: f64,
     /// About the axis.
     pub torsion: f64,
     /// The hub.
@@ -105,11 +107,12 @@ pub struct Shares {
 
 impl Shares {
     /// Names and values.
-    pub fn named(&self) -> [(&'static str, f64); 10] {
+    pub fn named(&self) -> [(&'static str, f64); 11] {
         [
             ("axial", self.axial),
             ("chord", self.chord),
             ("flap", self.flap),
+            ("bending", self.bending),
             ("torsion", self.torsion),
             ("hub", self.hub),
             ("x", self.x),
@@ -144,6 +147,7 @@ impl Shares {
             Direction::Axial => &mut self.axial,
             Direction::Chord => &mut self.chord,
             Direction::Flap => &mut self.flap,
+            Direction::Bending => &mut self.bending,
             Direction::Torsion => &mut self.torsion,
             Direction::Hub => &mut self.hub,
             Direction::X => &mut self.x,

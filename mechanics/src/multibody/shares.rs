@@ -1,15 +1,15 @@
 //! What a small motion moves: for the shares of a mode.
 //!
 //! Seen without an axis of rotation displacements are along x, y and z. About an axis those of a beam are along its tangent, across it
-//! towards the axis of rotation (flap), and across both (chord), and rotations of its sections count by how they move their direction; those of
-//! a body are along the radius, the axis and the circumference. What a beam moves is also told along the axes of its sections.
+//! towards the axis of rotation (flap), and across both (chord), or, of a shaft along the axis, across it (bending), and rotations of its sections
+//! count by how they move their direction; those of a body are along the radius, the axis and the circumference. What a beam moves is also told along the axes of its sections.
 
 use super::axis::Axis;
 use super::system::Multibody;
 use crate::linalg::Vec3;
 use crate::system::{Direction, State};
 
-/// Sine of the angle with the axis of rotation below which a direction across a beam is no more one of flap than one of chord.
+/// Sine of the angle with the axis of rotation up to which a beam is a shaft.
 const ALONG: f64 = 0.05;
 
 impl Multibody {
@@ -21,7 +21,7 @@ impl Multibody {
         [x, mx]: [&[f64]; 2],
         add: &mut dyn FnMut(Direction, f64),
     ) {
-        let mut vector = |[u, mu]: [Vec3; 2], along: Vec3| {
+        let mut vector = |[u, mu]: [Vec3; 2], along: Vec3, is_beam: bool| {
             let Some(axis) = axis else {
                 let names = [Direction::X, Direction::Y, Direction::Z];
                 names.into_iter().enumerate().for_each(|(k, direction)| add(direction, u[k] * mu[k]));
@@ -30,9 +30,13 @@ impl Multibody {
             let e = axis.direction;
             let across = e - e.dot(along) * along;
             let size = across.dot(across).sqrt();
-            let flap = if size > ALONG { 1.0 / size * across } else { Vec3::ZERO };
             let part = |d: Vec3| u.dot(d) * mu.dot(d);
             add(Direction::Axial, part(along));
+            if is_beam && size <= ALONG {
+                add(Direction::Bending, u.dot(mu) - part(along));
+                return;
+            }
+            let flap = if size > 0.0 { 1.0 / size * across } else { Vec3::ZERO };
             add(Direction::Flap, part(flap));
             add(Direction::Chord, u.dot(mu) - part(along) - part(flap));
         };
@@ -44,7 +48,7 @@ impl Multibody {
                 let length = arm.dot(arm).sqrt();
                 if length > 0.0 { 1.0 / length * arm } else { Vec3::ZERO }
             });
-            vector(both(6 * i), radial);
+            vector(both(6 * i), radial, false);
         }
         let mut section = [0.0; 3];
         for (of, &[q, v]) in self.constants.model.beams.iter().zip(&self.constants.beams) {
@@ -55,7 +59,7 @@ impl Multibody {
                 let swing = |of: Vec3| axes * of.cross(Vec3::AXES[0]);
                 let slope = if of.beam.has_shear() { both(at + 3).map(swing) } else { both(at + 3) };
                 for moved in [both(at), slope] {
-                    vector(moved, axes.column(0));
+                    vector(moved, axes.column(0), true);
                     let local = moved.map(|u| axes.transpose() * u);
                     (0..3).for_each(|k| section[k] += local[0][k] * local[1][k]);
                 }

@@ -13,6 +13,8 @@ pub enum Direction {
     Chord,
     /// The beam across, out of the plane of rotation.
     Flap,
+    /// The beam across, where it rotates about itself: no direction is one of flap or of chord.
+    Bending,
     /// The section about the axis.
     Torsion,
     /// The hub.

@@ -245,9 +245,11 @@ pub(super) fn read(
 /// A st file of one set with full matrices, of a deck.
 ///
 /// The elastic centre is where the tension couples with no bending; axes are the principal ones of bending there. Inertias are the moments
-/// about these axes: their product, for which the format has no place, is left out. Line, twist and damping do not belong to the format.
-pub fn write(deck: &Deck, title: &str) -> String {
+/// about these axes. Their product, and what the polar moment has beside their sum, for which the format has no place, are left out: the largest
+/// of both over that sum about the centre of mass is returned. Line, twist and damping do not belong to the format.
+pub fn write(deck: &Deck, title: &str) -> (String, [f64; 2]) {
     let mut rows = String::new();
+    let mut left_out = [0.0_f64; 2];
     for (s, section) in deck.table.rows() {
         let (k, m) = (HAWC2.outward(&section.stiffness), HAWC2.outward(&section.mass));
         let [x, y] = [-k[2][4] / k[2][2], k[2][3] / k[2][2]];
@@ -272,6 +274,12 @@ pub fn write(deck: &Deck, title: &str) -> String {
             sin * sin * xx + cos * cos * yy - 2.0 * sin * cos * xy,
         ]
         .map(|inertia| (inertia / size).max(0.0).sqrt());
+        let product = (cos * cos - sin * sin) * xy + sin * cos * (yy - xx);
+        let beside = m[5][5] - m[3][3] - m[4][4];
+        let sum = m[3][3] + m[4][4] - size * (centre[0] * centre[0] + centre[1] * centre[1]);
+        for (most, part) in left_out.iter_mut().zip([product, beside]) {
+            *most = most.max((part / sum).abs());
+        }
         let mut values = vec![*s, size, centre[0], centre[1], radii[0], radii[1], pitch.to_degrees(), x, y];
         values.extend((0..6).flat_map(|i| (i..6).map(move |j| (i, j))).map(|(i, j)| turned[i][j]));
         let row: Vec<String> = values.iter().map(|value| format!("{value:20.13e}")).collect();
@@ -279,8 +287,9 @@ pub fn write(deck: &Deck, title: &str) -> String {
         let _ = writeln!(rows, "{}", row.join(" "));
     }
     let titles = "r m x_cg y_cg ri_x ri_y pitch x_e y_e K11 K12 K13 K14 K15 K16 K22 K23 K24 K25 K26 K33 K34 K35 K36 K44 K45 K46 K55 K56 K66";
-    format!(
+    let text = format!(
         "1 ; number of sets, {title}\n-----\n#1 ; set number\n{titles}\n$1 {}\n{rows}",
         deck.table.rows().len()
-    )
+    );
+    (text, left_out)
 }
