@@ -1,4 +1,5 @@
-// How long requests take in WebAssembly, over how long they take natively: medians of the time of the processor, after a warm-up.
+// How long requests take in WebAssembly, over how long they take natively: medians of the time of the processor, after a warm-up. Exits with 1 if
+// one takes more than twice as long.
 //
 //     cargo build --profile wasm -p flexion-lab --example answer
 //     node speed.mjs ENGINE.wasm target/wasm/examples/answer [COUNT]
@@ -21,6 +22,9 @@ const requests = {
     "Campbell diagram": { do: "campbell", case: spinUp, speeds: "0:20:41", modes: 4 },
 };
 const median = (list) => [...list].sort((a, b) => a - b)[Math.floor(list.length / 2)];
+/** Largest ratio. */
+const MOST = 2;
+let slow = 0;
 const work = mkdtempSync(join(tmpdir(), "flexion-"));
 const file = join(work, "request.json");
 for (const [name, request] of Object.entries(requests)) {
@@ -40,6 +44,8 @@ for (const [name, request] of Object.entries(requests)) {
     const lines = execFileSync(native, [file, String(Number(count) + 2)], { encoding: "utf8" }).trim().split("\n");
     const theirs = median(lines.slice(2).map((line) => Number(line.split(" ")[0])));
     const ms = (seconds) => `${(1000 * seconds).toFixed(1)} ms`;
+    if (ours > MOST * theirs) slow += 1;
     console.log(`${name}: ${ms(ours)} in WebAssembly, ${ms(theirs)} natively, ratio ${(ours / theirs).toFixed(2)}; the first call ${ms(first)}`);
 }
 rmSync(work, { recursive: true });
+process.exit(slow ? 1 : 0);
