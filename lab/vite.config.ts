@@ -27,6 +27,20 @@ const licences = (mode: string): Plugin => ({
   },
 });
 
+/** The editor's code as text, which is run when the editor is first looked at. */
+const editor: Plugin = {
+  name: "editor",
+  transformIndexHtml: {
+    order: "post",
+    handler: (html) => {
+      if (!html.includes(">the editor<")) return html;
+      const code = readFileSync("made/editor.js", "utf8").trim().replaceAll("</script", "<\\/script");
+      if (code.includes("<!--")) throw new Error("the code of the editor cannot stand in a page: it holds a comment of HTML");
+      return html.replace(">the editor<", () => `>${code}<`);
+    },
+  },
+};
+
 /** Only the scripts that are in the page may run: their hashes take the place of `'unsafe-inline' SCRIPTS` in the policy. */
 const policy: Plugin = {
   name: "policy",
@@ -34,7 +48,7 @@ const policy: Plugin = {
     for (const name of Object.keys(bundle).filter((name) => name.endsWith(".html"))) {
       const file = join(dir!, name);
       const html = readFileSync(file, "utf8");
-      const scripts = [...html.matchAll(/<script type="module"[^>]*>([\s\S]*?)<\/script>/g)];
+      const scripts = [...html.matchAll(/<script(?: type="module"[^>]*| type="text\/plain" id="editor")?>([\s\S]*?)<\/script>/g)];
       const hashes = scripts.map(([, text]) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`);
       writeFileSync(file, html.replace("'unsafe-inline' SCRIPTS", hashes.join(" ")));
     }
@@ -42,11 +56,15 @@ const policy: Plugin = {
 };
 
 export default defineConfig(({ mode }) => {
+  if (mode === "editor") {
+    const lib = { entry: "src/editor.ts", formats: ["iife" as const], name: "CaseEditor", fileName: () => "editor.js" };
+    return { publicDir: false, build: { outDir: "made", emptyOutDir: false, lib } };
+  }
   const page = mode === "view" ? "view.html" : "index.html";
   return {
     base: "./",
     publicDir: false,
-    plugins: [licences(mode), viteSingleFile({ removeViteModuleLoader: true }), policy],
+    plugins: [licences(mode), viteSingleFile({ removeViteModuleLoader: true }), editor, policy],
     worker: { format: "iife" },
     build: {
       outDir: "dist",

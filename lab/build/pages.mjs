@@ -32,6 +32,7 @@ function stripped(module) {
 execFileSync("node", [join(lab, "build/gather.mjs")], { stdio: "inherit" });
 run("tsc");
 run("vite", "build", "--mode", "view");
+run("vite", "build", "--mode", "editor");
 run("vite", "build");
 const page = readFileSync(file("index.html"), "utf8");
 const large = readFileSync(join(lab, "made/files.json"), "utf8");
@@ -44,7 +45,7 @@ if (existsSync(engine)) {
   const module = stripped(readFileSync(engine));
   const packed = gzipSync(module, { level: 9 });
   writeFileSync(file("engine.wasm"), module);
-  const within = page.replace(">the engine<", () => `>${packed.toString("base64")}<`).replace(">{}<", () => `>${large.replaceAll("<", "\\u003c")}<`);
+  const within = page.replace(/<script>[\s\S]*?<\/script>/, "").replace(">the engine<", () => `>${packed.toString("base64")}<`).replace(">{}<", () => `>${large.replaceAll("<", "\\u003c")}<`);
   writeFileSync(file("lab.html"), within);
   console.log(`engine.wasm ${kilobytes(packed)} compressed, lab.html ${kilobytes(readFileSync(file("lab.html")))} with it within`);
 } else {

@@ -206,16 +206,20 @@ export function bytes(base64: string): Uint8Array<ArrayBuffer> {
   return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
 }
 
-/** The engine within the page, or else the file beside it. */
+declare global {
+  interface Window {
+    /** The engine, if the page has begun to fetch it. */
+    engine?: Promise<WebAssembly.Module>;
+  }
+}
+
+/** The engine within the page, or else the file beside it, which comes while the page is read. */
 export async function load(): Promise<WebAssembly.Module> {
   const within = document.getElementById("engine")?.textContent?.trim() ?? "";
   if (within.length > 100) {
     const stream = new Blob([bytes(within)]).stream().pipeThrough(new DecompressionStream("gzip"));
     return WebAssembly.compile(await new Response(stream).arrayBuffer());
   }
-  const answer = await fetch("engine.wasm");
-  if (!answer.ok) throw new Error(`engine.wasm: ${answer.status}`);
-  // A server that does not name the type of wasm is answered without streaming.
-  if (answer.headers.get("content-type")?.startsWith("application/wasm")) return WebAssembly.compileStreaming(answer);
-  return WebAssembly.compile(await answer.arrayBuffer());
+  if (!window.engine) throw new Error("the page has none");
+  return window.engine;
 }

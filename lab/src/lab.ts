@@ -7,7 +7,6 @@ import { Answer, type Pin } from "./answer";
 import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
 import { campbell } from "./diagram";
-import { Editor } from "./editor";
 import { bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
 import { Form, quantity, written } from "./form";
 import * as gallery from "./gallery";
@@ -15,6 +14,7 @@ import { Growing } from "./growing";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import { Room } from "./room";
 import * as save from "./save";
+import { Source } from "./source";
 import { zip } from "./zip";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -57,7 +57,7 @@ let diagram: Reply | undefined;
 
 const growing = new Growing(element("growing"));
 const computer = new Computer({ checked, answered, said, failed, grown: (rows, end) => (rows ? growing.add(rows, end ?? 0) : growing.clear()) });
-const editor = new Editor(element("text"), (text) => {
+const source = new Source(element("text"), (text) => {
   state.text = text;
   diagram = undefined;
   revision += 1;
@@ -121,11 +121,11 @@ function set(changes: string[], sliding = false) {
 function checked(reply: Reply, text: string, { revision: of, set, sliding }: Asked): boolean {
   // What has been written or opened since is newer.
   if (of !== revision) return false;
-  if (set) editor.text = state.text = text;
+  if (set) source.text = state.text = text;
   const problems = reply.problems ?? [];
   const missing = state.kind === "run" && !state.fresh ? (reply.missing ?? []) : [];
   list([...problems, ...missing]);
-  editor.report(problems);
+  source.report(problems);
   if (reply.tables) {
     entries = reply.tables;
     form.show(entries);
@@ -158,7 +158,7 @@ function list(problems: Problem[]) {
     const go = tag("button", { type: "button" }, problem.line ? `Line ${problem.line}` : (problem.set ?? problem.key ?? "Case"));
     go.addEventListener("click", () => {
       tab("text");
-      editor.go(problem.line ?? 1, problem.column ?? 1);
+      source.go(problem.line ?? 1, problem.column ?? 1);
     });
     const help = [problem.label, ...(problem.help ?? [])].filter(Boolean).join("; ");
     const key = problem.key && problem.line ? `${problem.key}: ` : "";
@@ -333,7 +333,7 @@ async function open(asked: Link) {
 /** Shows the state beside the answer. */
 function present() {
   revision += 1;
-  editor.text = state.text;
+  source.text = state.text;
   const runs = state.item?.runs ?? [];
   element("runs").hidden = runs.length < 2;
   const select = element<HTMLSelectElement>("run");
@@ -362,6 +362,7 @@ function tab(which: "form" | "text") {
     element(name).hidden = name !== which;
     element(`tab-${name}`).setAttribute("aria-selected", String(name === which));
   }
+  if (which === "text") source.shown();
 }
 
 for (const name of ["form", "text"] as const) element(`tab-${name}`).addEventListener("click", () => tab(name));
@@ -543,7 +544,7 @@ void computer.ready
   .then(() => computer.rests())
   .then(() => computer.keys())
   .then(({ schema, choices }) => {
-    editor.schema = schema;
+    source.schema = schema;
     form.offer(new Map((choices ?? []).map(({ path, kinds }) => [path, kinds.map((kind) => example(path, kind))])));
   })
   .catch((error) => failed(`The engine could not be started: ${error.message}`));

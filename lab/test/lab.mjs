@@ -60,6 +60,7 @@ const journeys = {
     const nameless = await page.$$eval("button, select, input, summary, a", (all) =>
       all.filter((e) => !e.closest("[hidden]") && !(e.ariaLabel || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML));
     assert.deepEqual(nameless, [], "everything that acts has a name");
+    assert.equal(await page.locator(".cm-editor").count(), 0, "the editor is made when it is looked at");
     const pixels = () => page.locator("#canvas").screenshot();
     const first = await pixels();
     await page.waitForTimeout(700);
@@ -171,6 +172,22 @@ const journeys = {
     await page.emulateMedia({ media: "print" });
     for (const id of ["#tools", "#stop", "footer"]) assert.ok(await page.locator(id).isHidden(), `${id} is not printed`);
     for (const id of ["#text", "#title"]) assert.ok(await page.locator(id).isVisible(), `${id} is printed`);
+    // The text stands whole, as it did before and after the editor was looked at.
+    const whole = () => page.$eval("#text .plain", (plain) => {
+      for (let node = plain; node !== document.documentElement; node = node.parentElement) {
+        const cut = node.scrollHeight > node.clientHeight + 1 || node.scrollWidth > node.clientWidth + 1;
+        if (cut && getComputedStyle(node).overflow !== "visible") return `${node.tagName}#${node.id} cuts it off`;
+      }
+      const lines = plain.textContent.trimEnd().split("\n").length;
+      const tall = plain.getBoundingClientRect().height / parseFloat(getComputedStyle(plain).lineHeight);
+      return tall >= lines - 0.5 ? "whole" : `${lines} lines stand in the height of ${tall}`;
+    });
+    assert.equal(await whole(), "whole");
+    await page.emulateMedia({ media: "screen" });
+    await page.click("#tab-text");
+    await page.emulateMedia({ media: "print" });
+    assert.equal(await whole(), "whole");
+    assert.ok(await page.locator(".cm-editor").isHidden(), "the editor is not printed");
     const bytes = await page.pdf();
     assert.ok(bytes.length > 20_000, "there is a picture in the print");
   },

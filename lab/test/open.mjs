@@ -2,17 +2,22 @@
 import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { join, normalize } from "node:path";
+import { gzipSync } from "node:zlib";
 import { chromium, firefox } from "playwright-core";
 
 const types = { html: "text/html", wasm: "application/wasm", svg: "image/svg+xml", css: "text/css", js: "text/javascript" };
 
-/** Serves a folder; gives the address and what ends it. */
-export function serve(folder) {
+/** Serves a folder, compressed if asked for; gives the address and what ends it. */
+export function serve(folder, { compressed = false } = {}) {
+  const packed = new Map();
+  const pack = (file) => packed.get(file) ?? packed.set(file, gzipSync(readFileSync(file))).get(file);
   const server = createServer((request, answer) => {
     const path = normalize(decodeURIComponent(new URL(request.url, "http://localhost").pathname)).replace(/[\\/]$/, "/index.html");
     const file = join(folder, path);
     if (path.includes("..") || !existsSync(file)) return answer.writeHead(404).end();
-    answer.writeHead(200, { "content-type": types[path.split(".").pop()] ?? "text/plain" }).end(readFileSync(file));
+    const head = { "content-type": types[path.split(".").pop()] ?? "text/plain" };
+    if (compressed) answer.writeHead(200, { ...head, "content-encoding": "gzip" }).end(pack(file));
+    else answer.writeHead(200, head).end(readFileSync(file));
   });
   return new Promise((resolve) => {
     server.listen(0, "localhost", () => resolve({ address: `http://localhost:${server.address().port}`, close: () => server.close() }));
