@@ -47,11 +47,12 @@ export class Answer {
 
   /** Draws a reply. What was chosen in the last answer of the same kind stays. */
   show(kind: Kind, reply: Reply, pin?: Pin, remark?: string) {
+    const other = pin?.kind === kind ? pin : undefined;
+    if (kind === "run" && this.kind === kind && this.again(reply, other)) return this.remark(reply, remark, other);
     const kept: Kept | undefined = this.kind === kind ? this.drawn?.kept() : undefined;
     this.clear();
     this.kind = kind;
     this.room.stage.hidden = false;
-    const other = pin?.kind === kind ? pin : undefined;
     if (kind === "run") this.run(reply, kept, other);
     else if (kind === "modes") this.drawn = this.modes(reply, kept);
     else if (kind === "statics") this.statics(reply);
@@ -76,11 +77,26 @@ export class Answer {
 
   /** Draws a run: its motion, its columns, its values and its events. */
   private run(reply: Reply, kept: Kept | undefined, pin: Pin | undefined) {
-    const { summary } = reply;
-    const results = banded(moving(reply), summary);
-    const moves = results?.scene && Object.keys(results.scene).length > 0;
+    const results = banded(moving(reply), reply.summary);
+    const moves = isMoving(results);
     this.room.stage.hidden = !moves;
     if (moves) this.drawn = motion(results, this.room, kept, pin && moving(pin.reply));
+    this.list(reply, pin);
+  }
+
+  /** Draws a run in the place of one that is like it; whether it is. */
+  private again(reply: Reply, pin: Pin | undefined): boolean {
+    const results = banded(moving(reply), reply.summary);
+    if (!isMoving(results) || !this.drawn?.take?.(results, pin && moving(pin.reply))) return false;
+    this.notes.replaceChildren();
+    this.values.replaceChildren();
+    this.list(reply, pin);
+    return true;
+  }
+
+  /** Lists values and events. */
+  private list(reply: Reply, pin: Pin | undefined) {
+    const { summary } = reply;
     if (summary?.columns) this.values.append(table(summary, pin?.reply.summary, this.room.signal));
     const events = listed(reply.events);
     if (events) this.values.append(events);
@@ -119,6 +135,9 @@ export class Answer {
     this.notes.append(list);
   }
 }
+
+/** Whether there is something in motion. */
+const isMoving = (results: Results) => results?.scene && Object.keys(results.scene).length > 0;
 
 /** With the largest error of a column as its band, where there is none over time. */
 function banded(results: Results, summary: Reply["summary"]): Results {

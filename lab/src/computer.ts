@@ -62,6 +62,8 @@ export class Computer {
   private present?: Asked;
   private running = false;
   private perSecond = PER_SECOND;
+  /** Ends the pause behind an answer under a slider. */
+  private wake?: () => void;
 
   constructor(private readonly told: Told) {
     this.ready = this.begin();
@@ -88,6 +90,7 @@ export class Computer {
     const kept = before.filter((change) => !keys.has(change.split("=")[0]));
     this.wanted = { ...asked, set: asked.set && [...kept, ...asked.set] };
     if (this.runner.busy > SHORT) this.runner.stop();
+    this.wake?.();
     if (!this.running) void this.pump();
   }
 
@@ -195,7 +198,7 @@ export class Computer {
     }
     this.told.said("");
     if (kind !== "run" || this.wanted) return;
-    if (asked.sliding) await pause(300);
+    if (asked.sliding) await Promise.race([pause(300), new Promise<void>((resolve) => (this.wake = resolve))]);
     if (this.wanted) return;
     this.told.said("estimating the error …", undefined, "stop");
     const whole = await this.ask({ ...this.request(asked), errors: true });

@@ -17,7 +17,15 @@ export interface Curve {
 /** Height of a plot [px]. */
 const HEIGHT = 120;
 
-export const styled = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+/** Colours of the style sheet by their names, until others are preferred. */
+const colours = new Map<string, string>();
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => colours.clear());
+
+export function styled(name: string): string {
+  const known = colours.get(name) ?? getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+  colours.set(name, known);
+  return known;
+}
 
 /** A tag with attributes and content. */
 export function tag<K extends keyof HTMLElementTagNameMap>(
@@ -81,19 +89,38 @@ function shade(plot: uPlot, trusted: number) {
   plot.ctx.fillRect(from, top, left + width - from, height);
 }
 
+/** Values and edges of bands of curves, in the order of the series. */
+function lists(x: Float64Array, curves: Curve[]): uPlot.AlignedData {
+  const numbers = (values: Float64Array) => Array.from(values, (y) => (Number.isFinite(y) ? y : null));
+  const series = curves.flatMap(({ values, error, other }) => {
+    const edges = error ? [1, -1].map((sign) => values.map((y, k) => y + sign * error[k])) : [];
+    return [...edges, ...(other ? [other] : []), values];
+  });
+  return [Array.from(x), ...series.map(numbers)];
+}
+
+/** Whether curves are drawn with the same lines and bands. */
+const alike = (one: Curve[], other: Curve[]) =>
+  one.length === other.length &&
+  one.every(({ name, unit, error, other: beside }, i) => {
+    const next = other[i];
+    return name === next.name && unit === next.unit && !error === !next.error && !beside === !next.other;
+  });
+
 /** One or several curves over a common abscissa. */
 export class Panel {
   readonly node: HTMLElement;
   private readonly plot: uPlot;
   private readonly line = tag("div", { class: "cursor" });
   private readonly values: HTMLOutputElement[];
+  private readonly ending = new AbortController();
 
   constructor(
     { signal }: Room,
-    private readonly x: Float64Array,
-    private readonly curves: Curve[],
+    private x: Float64Array,
+    private curves: Curve[],
     seek: ((x: number) => void) | undefined,
-    trusted = Infinity,
+    private trusted = Infinity,
   ) {
     this.values = curves.map(() => tag("output", { "aria-live": "off" }));
     const head = curves.map((curve, i) => {
@@ -111,27 +138,36 @@ export class Panel {
       ],
       series: [{}],
       bands: [],
-      hooks: { drawClear: [(plot) => shade(plot, trusted)] },
+      hooks: { drawClear: [(plot) => shade(plot, this.trusted)] },
     };
-    const data: (number | null)[][] = [Array.from(x)];
-    const add = (values: Float64Array, series: uPlot.Series) => {
-      data.push(Array.from(values, (y) => (Number.isFinite(y) ? y : null)));
-      options.series.push({ width: 1.5, pxAlign: 0, points: { show: false }, ...series });
-    };
-    curves.forEach(({ values, error, other }, i) => {
+    const add = (series: uPlot.Series) => options.series.push({ width: 1.5, pxAlign: 0, points: { show: false }, ...series });
+    curves.forEach(({ error, other }, i) => {
       if (error) {
-        const edge = (sign: number) => values.map((y, k) => y + sign * error[k]);
-        for (const sign of [1, -1]) add(edge(sign), { width: 0, stroke: "transparent" });
+        for (let edge = 0; edge < 2; edge++) add({ width: 0, stroke: "transparent" });
         const last = options.series.length - 1;
         options.bands!.push({ series: [last - 1, last], fill: () => `color-mix(in srgb, ${styled(`curve${i}`)} 30%, transparent)` });
       }
-      if (other) add(other, { stroke: () => styled(`curve${i + 1}`), dash: [6, 4] });
-      add(values, { stroke: () => styled(`curve${i}`) });
+      if (other) add({ stroke: () => styled(`curve${i + 1}`), dash: [6, 4] });
+      add({ stroke: () => styled(`curve${i}`) });
     });
-    this.plot = new uPlot(options, data as uPlot.AlignedData, this.node);
-    signal.addEventListener("abort", () => this.plot.destroy());
-    sized(this.node, this.plot, HEIGHT, signal);
+    this.plot = new uPlot(options, lists(x, curves), this.node);
+    signal.addEventListener("abort", () => this.ending.abort());
+    this.ending.signal.addEventListener("abort", () => this.plot.destroy());
+    sized(this.node, this.plot, HEIGHT, this.ending.signal);
     if (seek) this.seekable(seek);
+  }
+
+  /** Takes it away. */
+  end() {
+    this.ending.abort();
+  }
+
+  /** Draws other curves in the place of these, if they have the same lines and bands. */
+  take(x: Float64Array, curves: Curve[], trusted = Infinity): boolean {
+    if (!alike(this.curves, curves)) return false;
+    [this.x, this.curves, this.trusted] = [x, curves, trusted];
+    this.plot.setData(lists(x, curves));
+    return true;
   }
 
   /** Moves the cursor. */
@@ -175,17 +211,17 @@ export class Columns {
 
   constructor(
     private readonly room: Room,
-    private readonly times: Float64Array,
-    private readonly columns: (Curve & { shown: boolean })[],
-    private readonly trusted: number | undefined,
+    private times: Float64Array,
+    private columns: (Curve & { shown: boolean })[],
+    private trusted: number | undefined,
     private readonly seek: (time: number) => void,
   ) {
     this.time = times[0];
-    const boxes = columns.map((column) => {
+    const boxes = columns.map((column, i) => {
       const box = tag("input", { type: "checkbox" });
       box.checked = column.shown;
       box.addEventListener("change", () => {
-        column.shown = box.checked;
+        this.columns[i].shown = box.checked;
         this.arrange();
       });
       return tag("label", {}, box, column.name, " ", tag("span", { class: "unit" }, column.unit));
@@ -200,6 +236,21 @@ export class Columns {
     return this.columns.flatMap(({ name, shown }) => (shown ? [name] : []));
   }
 
+  /** Draws columns of the same names in the place of these; whether they are. */
+  take(times: Float64Array, columns: (Curve & { shown: boolean })[], trusted: number | undefined): boolean {
+    const named = (list: Curve[]) => list.map(({ name, unit }) => `${name} ${unit}`).join("\n");
+    if (named(columns) !== named(this.columns)) return false;
+    [this.times, this.columns, this.trusted] = [times, columns, trusted];
+    for (const column of columns) {
+      const panel = this.panels.get(column.name);
+      if (!panel || (column.shown && panel.take(times, [column], trusted))) continue;
+      panel.end();
+      this.panels.delete(column.name);
+    }
+    this.arrange();
+    return true;
+  }
+
   show(time: number) {
     this.time = time;
     for (const { name, shown } of this.columns) if (shown) this.panels.get(name)?.show(time);
@@ -211,7 +262,8 @@ export class Columns {
       if (this.panels.has(column.name)) continue;
       this.panels.set(column.name, new Panel(this.room, this.times, [column], this.seek, this.trusted));
     }
-    this.nodes.replaceChildren(...shown.map(({ name }) => this.panels.get(name)!.node));
+    const nodes = shown.map(({ name }) => this.panels.get(name)!.node);
+    if (nodes.length !== this.nodes.childElementCount || nodes.some((node, i) => node !== this.nodes.children[i])) this.nodes.replaceChildren(...nodes);
     this.show(this.time);
   }
 }

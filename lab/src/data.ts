@@ -39,7 +39,9 @@ export interface Results {
 /** Numbers in base64, behind their kind. */
 export function numbers(encoded: Encoded): Float64Array {
   const [kind, text] = encoded.split(":");
-  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; i++) bytes[i] = binary.charCodeAt(i);
   return kind === "f4" ? Float64Array.from(new Float32Array(bytes.buffer)) : new Float64Array(bytes.buffer);
 }
 

@@ -1,10 +1,10 @@
 // A run in motion.
-import { Vector3 } from "three";
+import { Quaternion, Vector3 } from "three";
 import { numbers, type Results } from "./data";
 import { Columns } from "./curves";
 import { Player } from "./player";
 import type { Drawn, Kept, Room } from "./room";
-import { extent, instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
+import { end, extent, instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { nice, steady, text } from "./text";
 import { button, choice, toggle } from "./tools";
@@ -25,42 +25,20 @@ function speed(span: number): number {
   return span < least ? nice(span / least) : span > most ? 2 * nice(span / most) : 1;
 }
 
-/** Draws a run; `other` is one that it is compared with, `kept` what is to be as it was in an answer before. */
-export function motion(results: Results, room: Room, kept?: Kept, other?: Results): Drawn {
+/** What is drawn of a run. */
+type Run = ReturnType<typeof read>;
+
+/** Takes results up; `other` is a run that they are compared with. */
+function read(results: Results, other?: Results) {
   const space = scene(results.scene);
   const { times, parts } = space;
-  const still: Section = { position: new Vector3(), turned: pose(parts[0], { from: 0, to: 0, share: 0 }).turned.identity() };
-  const stage = new Stage(room, space);
-  const beams = parts.filter((part) => part.beam);
-  const straight = beams.length > 0 && beams.every((part) => part.beam!.straight);
-  // Tips of beams, or bodies where there is no beam.
-  const followed = (beams.length > 0 ? beams : parts).slice(0, 12);
-  const { curves: table } = results;
-  const recorded = numbers(table!.times);
-  const columns = table!.columns.map((column) => ({
-    ...column,
-    values: numbers(column.values),
-    error: banded(column.error),
-    other: compared(column.name),
-  }));
-  if (kept?.shown?.some((name) => columns.some((column) => column.name === name))) {
-    for (const column of columns) column.shown = kept.shown.includes(column.name);
-  }
-  // Where none is of the usual ones, the first few.
-  if (!columns.some((column) => column.shown)) for (const column of columns.slice(0, 3)) column.shown = true;
-  const pinned = other && Object.keys(other.scene).length > 0 ? scene(other.scene) : undefined;
-  const revolutions = turns() / (2 * Math.PI);
-  // Beyond half a revolution between frames nobody sees which way it turns.
-  let factor = kept?.factor ?? suggested();
-  let rotating = kept?.rotating ?? revolutions > 0.5;
-  let path = kept?.path ?? true;
-  const forces = space.forces.map(({ values }) => values);
-  const strongest = Math.max(0, ...forces.map((values) => largest(values.filter((_, i) => i % 6 > 2))));
+  const table = results.curves!;
+  const recorded = numbers(table.times);
 
   /** Half-widths of a band, of one number until the time until which it is trusted. */
   function banded(error: string | number | null | undefined): Float64Array | undefined {
     if (typeof error === "string") return numbers(error);
-    return error ? recorded.map((time) => (time <= (table!.trusted ?? Infinity) ? error : NaN)) : undefined;
+    return error ? recorded.map((time) => (time <= (table.trusted ?? Infinity) ? error : NaN)) : undefined;
   }
 
   /** A column of the other run, at the times of this one. */
@@ -75,43 +53,110 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     });
   }
 
+  const columns = table.columns.map((column) => ({
+    ...column,
+    values: numbers(column.values),
+    error: banded(column.error),
+    other: compared(column.name),
+  }));
+  const beams = parts.filter((part) => part.beam);
+  const revolutions = turns(parts[0], times, recorded, columns.find((column) => column.name === "hub.angle")?.values) / (2 * Math.PI);
+  const pieces = Math.min(Math.max(Math.ceil((2 * Math.PI * revolutions) / TURN), 2), 16);
+  const instants = Array.from({ length: pieces * (times.length - 1) + 1 }, (_, k): Instant => {
+    const from = Math.min(Math.floor(k / pieces), times.length - 1);
+    return { from, to: Math.min(from + 1, times.length - 1), share: (k % pieces) / pieces };
+  });
+  const forces = space.forces.map(({ values }) => values);
+  return {
+    results,
+    space,
+    recorded,
+    columns,
+    trusted: table.trusted ?? undefined,
+    beams,
+    straight: beams.length > 0 && beams.every((part) => part.beam!.straight),
+    // Tips of beams, or bodies where there is no beam.
+    followed: (beams.length > 0 ? beams : parts).slice(0, 12),
+    pinned: other && Object.keys(other.scene).length > 0 ? scene(other.scene) : undefined,
+    revolutions,
+    pieces,
+    instants,
+    forces,
+    strongest: Math.max(0, ...forces.map((values) => largest(values.filter((_, i) => i % 6 > 2)))),
+  };
+}
+
+/** The largest angle [rad] by which a part or its hub turns between neighbouring times. */
+function turns(part: Part, times: Float64Array, recorded: Float64Array, angle?: Float64Array): number {
+  const hub = (time: number) => {
+    if (!angle) return 0;
+    const { from, to, share } = instant(recorded, time);
+    return angle[from] + share * (angle[to] - angle[from]);
+  };
+  let most = 0;
+  for (let i = 1; i < times.length; i++) {
+    const [before, now] = [i - 1, i].map((k) => pose(part, { from: k, to: k, share: 0 }).turned);
+    most = Math.max(most, before.angleTo(now), Math.abs(hub(times[i]) - hub(times[i - 1])));
+  }
+  return most;
+}
+
+/** Whether runs are of the same parts at the same times: what is drawn of one can show the other. */
+function alike(one: Run, other: Run): boolean {
+  const form = ({ space: { times, parts, outlines, forces, planar }, straight }: Run) => [
+    times.length,
+    times[0],
+    times[times.length - 1],
+    planar,
+    straight,
+    ...parts.flatMap(({ name, beam, box }) => [name, ...(beam ? [beam.hub, ...beam.stations, ...beam.section] : box!)]),
+    ...outlines.flatMap(({ name, points }) => [name, points.length]),
+    ...forces.map(({ name }) => name),
+  ];
+  const [a, b] = [form(one), form(other)];
+  return a.length === b.length && a.every((entry, i) => entry === b[i]);
+}
+
+/** Shows the columns that were shown before; where none is of the usual ones, the first few. */
+function choose({ columns }: Run, before?: string[]) {
+  if (before?.some((name) => columns.some((column) => column.name === name))) {
+    for (const column of columns) column.shown = before.includes(column.name);
+  }
+  if (!columns.some((column) => column.shown)) for (const column of columns.slice(0, 3)) column.shown = true;
+}
+
+/** Draws a run; `other` is one that it is compared with, `kept` what is to be as it was in an answer before. */
+export function motion(results: Results, room: Room, kept?: Kept, other?: Results): Drawn {
+  let run = read(results, other);
+  const still: Section = { position: new Vector3(), turned: new Quaternion() };
+  const stage = new Stage(room, run.space);
+  choose(run, kept?.shown);
+  // Beyond half a revolution between frames nobody sees which way it turns.
+  let factor = kept?.factor ?? suggested();
+  let rotating = kept?.rotating ?? run.revolutions > 0.5;
+  let path = kept?.path ?? true;
+
   /** Forces as arrows, the largest a fifth of the size. */
   function arrows(at: Instant): [Vector3, Vector3][] {
-    const drawn = forces.flatMap((values): [Vector3, Vector3][] => {
+    return run.forces.flatMap((values): [Vector3, Vector3][] => {
       const entry = (i: number) => values[6 * at.from + i] + at.share * (values[6 * at.to + i] - values[6 * at.from + i]);
-      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar((0.2 * stage.size) / (strongest || 1));
+      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar((0.2 * stage.size) / (run.strongest || 1));
       return along.length() > 1e-3 * stage.size ? [[new Vector3(entry(0), entry(1), entry(2)), along]] : [];
     });
-    return drawn;
   }
 
   /** The beams of the other run. */
   function others(time: number): Vector3[][] {
-    if (!pinned) return [];
-    const at = instant(pinned.times, time);
-    const drawn = pinned.parts.filter((part) => part.beam);
+    if (!run.pinned) return [];
+    const at = instant(run.pinned.times, time);
+    const drawn = run.pinned.parts.filter((part) => part.beam);
     return drawn.map((part) => sections(part, at, factor, PIECES).map((section) => section.position));
-  }
-
-  /** The largest angle [rad] by which the first part or its hub turns between neighbouring times. */
-  function turns(): number {
-    const angle = columns.find((column) => column.name === "hub.angle")?.values;
-    const hub = (time: number) => {
-      const { from, to, share } = instant(recorded, time);
-      return angle ? angle[from] + share * (angle[to] - angle[from]) : 0;
-    };
-    let most = 0;
-    for (let i = 1; i < times.length; i++) {
-      const [before, now] = [i - 1, i].map((k) => pose(parts[0], { from: k, to: k, share: 0 }).turned);
-      most = Math.max(most, before.angleTo(now), Math.abs(hub(times[i]) - hub(times[i - 1])));
-    }
-    return most;
   }
 
   /** The factor that makes small deflections visible; with obstacles there is none, for gaps are not drawn larger. */
   function suggested(): number {
-    if (space.outlines.length > 0 || !straight) return 1;
-    const over = Math.max(...parts.map(({ beam }) => (beam ? largest(beam.displacements) : 0))) / stage.size;
+    if (run.space.outlines.length > 0 || !run.straight) return 1;
+    const over = Math.max(...run.space.parts.map(({ beam }) => (beam ? largest(beam.displacements) : 0))) / stage.size;
     // What is rounding is not drawn larger.
     return over > 1e-9 && over < SEEN / 4 ? nice(SEEN / over) : 1;
   }
@@ -119,26 +164,21 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   /** The axes of the first part, at the centre of its hub. */
   function frame(at: Instant): Section {
     if (!rotating) return still;
-    const root = pose(parts[0], at);
-    const hub = new Vector3(parts[0].beam?.hub ?? 0, 0, 0).applyQuaternion(root.turned);
+    const [first] = run.space.parts;
+    const root = pose(first, at);
+    const hub = new Vector3(first.beam?.hub ?? 0, 0, 0).applyQuaternion(root.turned);
     return { position: root.position.sub(hub), turned: root.turned };
   }
 
-  const shapes = (at: Instant) => parts.map((part) => (part.beam ? sections(part, at, factor, PIECES) : undefined));
+  const shapes = (at: Instant) => run.space.parts.map((part) => (part.beam ? sections(part, at, factor, PIECES) : undefined));
 
   function outline(points: Float64Array, at: Instant): Vector3[] {
-    const count = points.length / times.length;
+    const count = points.length / run.space.times.length;
     return Array.from({ length: count / 3 }, (_, k) => {
       const vertex = (i: number) => new Vector3().fromArray(points, count * i + 3 * k);
       return vertex(at.from).lerp(vertex(at.to), at.share);
     });
   }
-
-  const pieces = Math.min(Math.max(Math.ceil((2 * Math.PI * revolutions) / TURN), 2), 16);
-  const instants = Array.from({ length: pieces * (times.length - 1) + 1 }, (_, k): Instant => {
-    const from = Math.min(Math.floor(k / pieces), times.length - 1);
-    return { from, to: Math.min(from + 1, times.length - 1), share: (k % pieces) / pieces };
-  });
 
   /** A point as it is seen from the frame of reference. */
   const seen = (point: Vector3, { position, turned }: Section) =>
@@ -146,31 +186,32 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
 
   /** The paths of what is followed. */
   function trace() {
-    const end = (part: Part, at: Instant) => (part.beam ? sections(part, at, factor, 1).at(-1)! : pose(part, at));
-    const trail = (part: Part) => instants.map((at) => seen(end(part, at).position, frame(at)));
-    stage.trace(path ? followed.map(trail) : []);
+    const trail = (part: Part) => run.instants.map((at) => seen(end(part, at, factor), frame(at)));
+    stage.trace(path ? run.followed.map(trail) : []);
   }
 
   function fit() {
+    const { instants, space } = run;
     const every = Math.max(1, Math.floor(instants.length / 150));
     const points = instants.filter((_, k) => k % every === 0).flatMap((at) => {
       const now = frame(at);
-      const places = parts.flatMap((part) => extent(part, at, factor));
-      const closed = space.outlines.filter(({ points }) => points.length / times.length > 6);
+      const places = space.parts.flatMap((part) => extent(part, at, factor));
+      const closed = space.outlines.filter(({ points }) => points.length / space.times.length > 6);
       places.push(...closed.flatMap(({ points }) => outline(points, at)));
       places.push(now.position);
       return places.map((point) => seen(point, now));
     });
-    const hub = Math.max(0, ...parts.map((part) => part.beam?.hub ?? 0));
+    const hub = Math.max(0, ...space.parts.map((part) => part.beam?.hub ?? 0));
     if (hub > 0) for (const x of [-hub, hub]) points.push(new Vector3(x, x, 0));
     stage.fit(points);
   }
 
   function draw(time: number) {
-    const at = instant(times, time);
+    const { space, pieces } = run;
+    const at = instant(space.times, time);
     const outlines = space.outlines.map(({ points }) => outline(points, at));
     stage.place({
-      poses: parts.map((part) => pose(part, at)),
+      poses: space.parts.map((part) => pose(part, at)),
       sections: shapes(at),
       outlines,
       frame: frame(at),
@@ -181,17 +222,19 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     stage.render();
   }
 
-  const [start, end] = [times[0], times[times.length - 1]];
+  const { times, parts, planar } = run.space;
+  const [start, last] = [times[0], times[times.length - 1]];
   room.subtitle.textContent =
-    `${results.name === results.title ? "" : `${results.name}, `}${text(start)} to ${text(end)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
+    `${results.name === results.title ? "" : `${results.name}, `}${text(start)} to ${text(last)} s, ${times.length === 1 ? "1 frame" : `${times.length} frames`}, Flexion ${results.version}`;
   let player: Player | undefined;
   // Of one time there are values, but no curves.
-  room.curves.hidden = recorded.length < 2;
-  const curves = new Columns(room, recorded, columns, table!.trusted ?? undefined, (time) => {
+  room.curves.hidden = run.recorded.length < 2;
+  const curves = new Columns(room, run.recorded, run.columns, run.trusted, (time) => {
     player?.play(false);
     player?.seek(time);
   });
   const note = () => {
+    const { results, revolutions, strongest } = run;
     const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
     const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in its own frame.`;
     const blind = stage.shown ? "" : "This browser has no WebGL: there is no picture, but curves.";
@@ -206,7 +249,7 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     draw(player?.time ?? start);
   };
   button(room, "Fit", "f", fit);
-  if (!space.planar) {
+  if (!planar) {
     const views: [string, View][] = [["space", "space"], ["x, y", "xy"], ["x, z", "xz"], ["y, z", "yz"]];
     choice<View>(room, "View", views, "space", (view) => {
       stage.turn(view);
@@ -218,12 +261,12 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     rotating = on;
     again();
   });
-  toggle(room, beams.length > 0 ? "Tip path" : "Paths", "p", path, (on) => {
+  toggle(room, run.beams.length > 0 ? "Tip path" : "Paths", "p", path, (on) => {
     path = on;
     trace();
     draw(player!.time);
   });
-  if (straight) {
+  if (run.straight) {
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 1000, factor])].sort((a, b) => a - b);
     choice(room, "Deflection", factors.map((x): [string, number] => [`${text(x)} ×`, x]), factor, (x) => {
       factor = x;
@@ -234,7 +277,7 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     draw(time);
     curves.show(time);
   };
-  player = new Player(room, times, (time) => `${steady(time)} s`, show, speed(end - start), kept);
+  player = new Player(room, times, (time) => `${steady(time)} s`, show, speed(last - start), kept);
   let fitted = kept?.seen !== undefined && stage.look(kept.seen);
   const resized = () => {
     if (fitted) draw(player!.time);
@@ -246,8 +289,17 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   player.seek(player.time);
   return {
     kept: () => ({ ...player!.kept, factor, rotating, path, seen: stage.seen, shown: curves.shown }),
-    seek: (share) => player!.seek(start + share * (end - start)),
+    seek: (share) => player!.seek(start + share * (last - start)),
     play: (on) => player!.play(on),
     seconds: player.seconds,
+    take: (results, other) => {
+      const next = read(results, other);
+      if (!alike(run, next)) return false;
+      choose(next, curves.shown);
+      if (!curves.take(next.recorded, next.columns, next.trusted)) return false;
+      run = next;
+      again(true);
+      return true;
+    },
   };
 }

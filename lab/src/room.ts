@@ -1,5 +1,6 @@
 // Where an answer is drawn: a picture with its tools, curves beside it, and the time below.
 import { tag } from "./curves";
+import type { Results } from "./data";
 import type { Seen } from "./stage";
 
 /** What is kept when the answer of a changed case takes the place of another. */
@@ -23,6 +24,8 @@ export interface Drawn {
   /** Draws it at a share of its duration. */
   seek(share: number): void;
   play(on: boolean): void;
+  /** Draws another run in its place, if it has the same parts, times and columns; whether it has. */
+  take?(results: Results, other?: Results): boolean;
   /** Seconds that playing takes. */
   seconds: number;
 }

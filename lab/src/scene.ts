@@ -130,25 +130,34 @@ export function pose(part: Part, { from, to, share }: Instant): Section {
   return result;
 }
 
+/** The section at a station in the axes of the root: its place, and its rotation vector. */
+function displaced(beam: Beam, k: number, { from, to, share }: Instant, factor: number) {
+  const m = beam.stations.length;
+  const [a, b] = [3 * (m * from + k), 3 * (m * to + k)];
+  const component = (of: Float64Array, i: number) => factor * (of[a + i] + share * (of[b + i] - of[a + i]));
+  const vector = (of: Float64Array) => new Vector3(component(of, 0), component(of, 1), component(of, 2));
+  const place = vector(beam.displacements);
+  place.x += beam.stations[k] - beam.stations[0];
+  return { place, theta: vector(beam.rotations) };
+}
+
+/** Where the tip of a beam is, or a body. */
+export function end(part: Part, at: Instant, factor: number): Vector3 {
+  const { position, turned } = pose(part, at);
+  if (!part.beam) return position;
+  const { place } = displaced(part.beam, part.beam.stations.length - 1, at, factor);
+  return place.applyQuaternion(turned).add(position);
+}
+
 /**
  * The sections of a beam, with displacements and rotations `factor` times as large: `pieces` between neighbouring stations,
  * on cubics through the stations along their tangents.
  */
 export function sections(part: Part, at: Instant, factor: number, pieces: number): Section[] {
-  const beam = part.beam!;
   const root = pose(part, at);
-  const m = beam.stations.length;
-  const vector = (of: Float64Array, k: number) => {
-    const component = (i: number) => {
-      const [a, b] = [at.from, at.to].map((time) => of[3 * (m * time + k) + i]);
-      return factor * (a + at.share * (b - a));
-    };
-    return new Vector3(component(0), component(1), component(2));
-  };
+  const m = part.beam!.stations.length;
   const local = Array.from({ length: m }, (_, k) => {
-    const theta = vector(beam.rotations, k);
-    const place = vector(beam.displacements, k);
-    place.x += beam.stations[k] - beam.stations[0];
+    const { place, theta } = displaced(part.beam!, k, at, factor);
     return { place, theta, tangent: new Vector3(1, 0, 0).applyQuaternion(rotation(theta)) };
   });
   const inertial = (place: Vector3, theta: Vector3): Section => ({

@@ -77,16 +77,18 @@ class Line {
   place(points: THREE.Vector3[]) {
     if (points.length < 2) return;
     // A new geometry only where the number of points changes.
-    const flat = points.flatMap((p) => [p.x, p.y, p.z]);
     const start = this.object.geometry.getAttribute("instanceStart") as THREE.InterleavedBufferAttribute | undefined;
     if (start?.count === points.length - 1) {
       const buffer = start.data.array as Float32Array;
-      for (let i = 0; i + 1 < points.length; i++) buffer.set(flat.slice(3 * i, 3 * i + 6), 6 * i);
+      for (let i = 0; i + 1 < points.length; i++) {
+        points[i].toArray(buffer, 6 * i);
+        points[i + 1].toArray(buffer, 6 * i + 3);
+      }
       start.data.needsUpdate = true;
     } else {
       this.object.geometry.dispose();
       this.object.geometry = new LineGeometry();
-      this.object.geometry.setPositions(flat);
+      this.object.geometry.setPositions(points.flatMap((p) => [p.x, p.y, p.z]));
     }
     if (this.material.dashed) this.object.computeLineDistances();
     this.object.visible = true;
@@ -205,11 +207,13 @@ export class Stage {
   private readonly bodies: (Body | undefined)[];
   private readonly solids: (Solid | undefined)[];
   private readonly outlines: Line[];
-  private paths: Line[] = [];
+  private readonly paths: Line[] = [];
   private readonly others: Line[] = [];
   private readonly forces: Line[] = [];
   private readonly axes: Line[];
 
+  /** The camera is moved, and a picture follows. */
+  private moving = false;
   private readonly canvas: HTMLCanvasElement;
   private readonly bar: HTMLElement;
 
@@ -249,7 +253,7 @@ export class Stage {
       this.controls.mouseButtons.LEFT = THREE.MOUSE.PAN;
       this.controls.touches.ONE = THREE.TOUCH.PAN;
     }
-    this.controls.addEventListener("change", () => this.render());
+    this.controls.addEventListener("change", () => this.moving || this.render());
     const observer = new ResizeObserver(() => this.resize());
     observer.observe(canvas.parentElement!);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint(), { signal });
@@ -277,7 +281,7 @@ export class Stage {
     this.camera.position.copy(direction).setLength(20 * this.size);
     this.camera.near = 0.1 * this.size;
     this.camera.far = 40 * this.size;
-    this.controls.update();
+    this.move();
   }
 
   /** Shows all the points. */
@@ -300,7 +304,7 @@ export class Stage {
     );
     if (width === 0) this.camera.zoom = 1;
     this.camera.updateProjectionMatrix();
-    this.controls.update();
+    this.move();
     this.render();
   }
 
@@ -338,16 +342,22 @@ export class Stage {
     this.camera.zoom = zoom;
     this.controls.target.copy(target);
     this.camera.updateProjectionMatrix();
-    this.controls.update();
+    this.move();
     return true;
   }
 
+  private move() {
+    this.moving = true;
+    this.controls.update();
+    this.moving = false;
+  }
+
   /** As many lines as there are lists of points. */
-  private draw(lines: Line[], all: THREE.Vector3[][], make: () => Line) {
+  private draw(lines: Line[], all: THREE.Vector3[][], make: () => Line, into: THREE.Object3D = this.world) {
     while (lines.length < all.length) {
       const line = make();
       line.paint();
-      this.world.add(line.object);
+      into.add(line.object);
       lines.push(line);
     }
     lines.forEach((line, i) => {
@@ -367,17 +377,7 @@ export class Stage {
 
   /** Paths of points, as seen from the frame of reference. */
   trace(paths: THREE.Vector3[][]) {
-    for (const { object } of this.paths) {
-      this.space.remove(object);
-      object.geometry.dispose();
-    }
-    this.paths = paths.map((points) => {
-      const line = new Line("path", 1.5);
-      line.place(points);
-      line.paint();
-      this.space.add(line.object);
-      return line;
-    });
+    this.draw(this.paths, paths, () => new Line("path", 1.5), this.space);
   }
 
   /** Draws the first `count` points of the paths. */

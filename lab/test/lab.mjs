@@ -88,10 +88,12 @@ const journeys = {
       new MutationObserver(() => document.querySelector("#result").classList.contains("stale") && resolve(true)).observe(document.querySelector("#result"), { attributes: true });
       setTimeout(() => resolve(false), 3000);
     }));
+    await page.$eval("#options button", (button) => (button.dataset.made = "before"));
     await slide(page, "hub.motion.speed", 0.75);
     assert.ok(await faded, "the old answer fades under a new slider");
     await answered(page);
     const after = number((await values(page, "tip.deflection"))[0]);
+    assert.equal(await page.getAttribute("#options button", "data-made"), "before", "the picture of a like answer is kept");
     assert.ok(after < 1.2 * before, `8 rad/s bend it more: ${after} m, 4 rad/s ${before} m`);
     await page.waitForFunction(() => location.hash.includes("set=hub.motion.speed"));
     assert.match(await page.inputValue("#key-hub\\.motion\\.speed"), /^8(\.\d+)? rad\/s$/);
