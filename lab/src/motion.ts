@@ -136,13 +136,25 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   let rotating = kept?.rotating ?? run.revolutions > 0.5;
   let path = kept?.path ?? true;
 
-  /** Forces as arrows, the largest a fifth of the size. */
+  /** Forces as arrows, as long as they are large. */
   function arrows(at: Instant): [Vector3, Vector3][] {
     return run.forces.flatMap((values): [Vector3, Vector3][] => {
       const entry = (i: number) => values[6 * at.from + i] + at.share * (values[6 * at.to + i] - values[6 * at.from + i]);
-      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar((0.2 * stage.size) / (run.strongest || 1));
-      return along.length() > 1e-3 * stage.size ? [[new Vector3(entry(0), entry(1), entry(2)), along]] : [];
+      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar(stage.arrow / (run.strongest || 1));
+      return along.length() > 1e-2 * stage.arrow ? [[drawn(new Vector3(entry(0), entry(1), entry(2)), at), along]] : [];
     });
+  }
+
+  /** Where a point is drawn: moved as the nearest section is, where deflections are drawn larger. */
+  function drawn(point: Vector3, at: Instant): Vector3 {
+    if (factor === 1) return point;
+    const moved = run.beams.flatMap((part) => {
+      const larger = sections(part, at, factor, 1);
+      return sections(part, at, 1, 1).map(({ position }, k) => ({ position, by: larger[k].position.sub(position) }));
+    });
+    const [first, ...others] = moved;
+    const nearer = (a: typeof first, b: typeof first) => (b.position.distanceTo(point) < a.position.distanceTo(point) ? b : a);
+    return first ? point.add(others.reduce(nearer, first).by) : point;
   }
 
   /** The beams of the other run. */

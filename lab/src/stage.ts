@@ -27,6 +27,7 @@ export interface Picture {
 /** Where a picture is looked from. */
 export interface Seen {
   size: number;
+  extent: number;
   position: THREE.Vector3;
   up: THREE.Vector3;
   target: THREE.Vector3;
@@ -197,8 +198,29 @@ class Solid {
   }
 }
 
+/** Makes renderer and shaders of a canvas before there is something to be drawn. */
+export function warm(canvas: HTMLCanvasElement) {
+  const made = renderer(canvas);
+  if (!made) return;
+  const space = new THREE.Scene();
+  const lines = [new Line("beam", 1), new Line("faint", 1, 1)];
+  // Behind the camera.
+  for (const line of lines) line.place([new THREE.Vector3(0, 0, 9), new THREE.Vector3(1, 0, 9)]);
+  const meshes = [true, false].map((flatShading) => {
+    const material = new THREE.MeshLambertMaterial({ flatShading, side: THREE.DoubleSide, transparent: true, opacity: 0.5 });
+    const mesh = new THREE.Mesh(new THREE.CircleGeometry(1, 3), material);
+    mesh.position.z = 9;
+    mesh.frustumCulled = false;
+    return mesh;
+  });
+  space.add(...lines.map((line) => line.object), ...meshes, new THREE.AmbientLight(), new THREE.DirectionalLight());
+  made.render(space, new THREE.OrthographicCamera());
+}
+
 export class Stage {
   readonly size: number;
+  /** Size of all that is shown, in the plane of the picture. */
+  private extent = 0;
   private readonly renderer: THREE.WebGLRenderer | undefined;
   private readonly camera = new THREE.OrthographicCamera();
   private readonly controls: OrbitControls;
@@ -290,6 +312,7 @@ export class Stage {
     const seen = points.map((point) => point.clone().applyMatrix4(this.camera.matrixWorldInverse));
     const box = new THREE.Box3().setFromPoints(seen);
     const [centre, size] = [box.getCenter(new THREE.Vector3()), box.getSize(new THREE.Vector3())];
+    this.extent = Math.max(size.x, size.y);
     const shift = new THREE.Vector3(centre.x, centre.y, 0).applyQuaternion(this.camera.quaternion);
     this.controls.target.add(shift);
     this.camera.position.add(shift);
@@ -320,7 +343,7 @@ export class Stage {
     });
     picture.outlines.forEach((points, i) => this.outlines[i].place(points));
     this.draw(this.others, picture.others ?? [], () => new Line("curve1", 2.5, this.size / 40));
-    this.draw(this.forces, (picture.forces ?? []).map(([at, along]) => this.arrow(at, along)), () => new Line("force", 2));
+    this.draw(this.forces, (picture.forces ?? []).map(([at, along]) => this.pointed(at, along)), () => new Line("force", 2));
   }
 
   /** Whether there is a picture at all. */
@@ -328,15 +351,21 @@ export class Stage {
     return this.renderer !== undefined;
   }
 
+  /** Length of the longest arrow. */
+  get arrow(): number {
+    return 0.2 * Math.max(this.size, 0.5 * this.extent);
+  }
+
   /** Where it is looked from. */
   get seen(): Seen {
     const { position, up, zoom } = this.camera;
-    return { size: this.size, position: position.clone(), up: up.clone(), target: this.controls.target.clone(), zoom };
+    return { size: this.size, extent: this.extent, position: position.clone(), up: up.clone(), target: this.controls.target.clone(), zoom };
   }
 
   /** Looks from where another was seen, if that was of the same size. */
-  look({ size, position, up, target, zoom }: Seen): boolean {
+  look({ size, extent, position, up, target, zoom }: Seen): boolean {
     if (Math.abs(size / this.size - 1) > 0.3) return false;
+    this.extent = extent;
     this.camera.position.copy(position);
     this.camera.up.copy(up);
     this.camera.zoom = zoom;
@@ -366,7 +395,7 @@ export class Stage {
     });
   }
 
-  private arrow(at: THREE.Vector3, along: THREE.Vector3): THREE.Vector3[] {
+  private pointed(at: THREE.Vector3, along: THREE.Vector3): THREE.Vector3[] {
     const end = at.clone().add(along);
     const sight = this.camera.position.clone().sub(this.controls.target);
     const side = along.clone().cross(sight.applyQuaternion(this.world.quaternion.clone().conjugate()));

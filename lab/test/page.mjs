@@ -38,6 +38,9 @@ async function look(path, { name, viewport, colorScheme }) {
   assert.ok(await far(), "time goes on");
   assert.ok(!first.equals(await pixels()), "the picture moves");
 
+  // What touches or is loaded has arrows.
+  if (/contact/.test(basename(path))) assert.match(await page.textContent("#note"), /Arrows are forces, the longest [\d.e]+ N\./);
+
   // Space pauses, the arrows step.
   await page.locator("h1").click();
   await page.keyboard.press("Space");

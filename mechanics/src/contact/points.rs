@@ -1,7 +1,7 @@
 //! Points of a model that may touch obstacles.
 
 use super::obstacle::Obstacle;
-use crate::linalg::{Matrix, Vec3};
+use crate::linalg::{Mat3, Matrix, Vec3};
 use crate::system::State;
 
 /// Motion of a point, in the axes in which its obstacle is given.
@@ -84,6 +84,11 @@ pub trait Points {
     /// Directions in which its points slide on an obstacle: 1 in the plane, 2 in space.
     fn directions(&self) -> usize {
         1
+    }
+
+    /// Axes, in space and about the origin, in which the motion of point `k` is given: those of space, or of what its obstacle is fixed to.
+    fn axes(&mut self, _k: usize, _s: &State) -> Mat3 {
+        Mat3::IDENTITY
     }
 
     /// Forgets the forces on all points.

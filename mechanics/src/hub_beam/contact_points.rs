@@ -4,9 +4,10 @@
 use super::contact_point::{ContactPoint, Mount};
 use super::coupling::Coupling;
 use super::hub::Drive;
+use super::point_forces::about_third;
 use super::system::HubBeam;
 use crate::contact::{PointMotion, Points, Variation};
-use crate::linalg::{Matrix, Vec3};
+use crate::linalg::{Mat3, Matrix, Vec3};
 use crate::system::State;
 
 impl<C: Coupling> HubBeam<C> {
@@ -128,6 +129,13 @@ impl<C: Coupling> Points for HubBeam<C> {
 
     fn is_local(&self, k: usize) -> bool {
         self.contact_points[k].shortening.is_empty()
+    }
+
+    fn axes(&mut self, k: usize, s: &State) -> Mat3 {
+        match self.contact_points[k].mount {
+            Mount::Ground => Mat3::IDENTITY,
+            Mount::Hub => about_third(self.kinematics(s).angle),
+        }
     }
 
     fn begin_forces(&mut self) {

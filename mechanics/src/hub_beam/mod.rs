@@ -27,6 +27,7 @@ mod linear;
 pub mod load;
 mod lumped;
 mod measured;
+mod point_forces;
 mod positive;
 mod product;
 mod rule;

@@ -16,7 +16,7 @@ use crate::linalg::{Mat3, Matrix, Storage, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
     Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, NotSet, Observed,
-    Parameter, Power, Role, Sink, Size, State, Steady, StiffnessForm, Weights, ordered,
+    Parameter, PointForce, Power, Role, Sink, Size, State, Steady, StiffnessForm, Weights, ordered,
 };
 use std::sync::Arc;
 
@@ -30,7 +30,9 @@ pub struct HubBeam<C> {
     /// Recorded stations, ascending along the beam; the tip is the last.
     stations: Arc<[Station]>,
     /// Stations that were last requested by [`Observed::frames`].
-    shown: Vec<Station>,
+    pub(super) shown: Vec<Station>,
+    /// Stations at which loads at points act, once they were asked for.
+    pub(super) loaded: Vec<Station>,
     placements: Vec<Placement>,
     scratch: Scratch,
     recent: Recent,
@@ -43,7 +45,7 @@ pub struct HubBeam<C> {
     pub(super) held: bool,
     /// Angle by which the hub is turned further against loads of a fixed direction \[rad\].
     azimuth: f64,
-    loads: Loads,
+    pub(super) loads: Loads,
     /// Stations that may touch obstacles, and the torque of the contact forces on the hub [N·m].
     pub(super) contact_points: Vec<ContactPoint>,
     pub(super) contact_torque: f64,
@@ -92,6 +94,7 @@ impl<C: Coupling> HubBeam<C> {
             placements: vec![Placement::default(); stations.len()],
             stations: stations.into(),
             shown: Vec::new(),
+            loaded: Vec::new(),
             scratch,
             recent: Recent::new(),
             measured: Measured::default(),
@@ -459,6 +462,10 @@ impl<C: Coupling> Observed for HubBeam<C> {
             frame.rotation =
                 Mat3([[cos_section, -sin_section, 0.0], [sin_section, cos_section, 0.0], [0.0, 0.0, 1.0]]);
         }
+    }
+
+    fn point_forces(&mut self, s: &State) -> Vec<PointForce> {
+        self.loads_at_points(s)
     }
 
     fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {

@@ -8,7 +8,7 @@ use super::row::Row;
 use super::system::Multibody;
 use crate::linalg::Vec3;
 use crate::profile::HubKinematics;
-use crate::system::{Direction, Energy, Frame, Limit, Observed, Power, Sink, Slender, State};
+use crate::system::{Direction, Energy, Frame, Limit, Observed, PointForce, Power, Sink, Slender, State};
 
 /// Size of a row that was left out, over the length of the system, at which it no longer follows from the others; and over the
 /// largest of the rows that are kept.
@@ -167,6 +167,21 @@ impl Observed for Multibody {
                 *out = of.frame(&s.q[*i..], *station);
             }
         }
+    }
+
+    fn point_forces(&mut self, s: &State) -> Vec<PointForce> {
+        self.place(s);
+        let (mut all, mut work) = (Vec::new(), Interaction::new());
+        for (k, load) in self.constants.model.loads.iter().enumerate() {
+            if load.force == Vec3::ZERO {
+                continue;
+            }
+            work.clear(false);
+            let at = self.load_end(k);
+            load.interact(at, (s.time(), self.part), &mut work);
+            all.push(PointForce { name: load.name.clone(), place: at.position, force: work.wrench[2] });
+        }
+        all
     }
 
     /// The first beam.

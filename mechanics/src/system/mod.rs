@@ -36,7 +36,9 @@ pub use corotation::Corotation;
 pub use dynamics::{Dynamics, StiffnessForm, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
 pub use limit::Limit;
-pub use observed::{ContactInfo, ContactSample, Direction, Energy, Frame, Observed, Power, Slender};
+pub use observed::{
+    ContactInfo, ContactSample, Direction, Energy, Frame, Observed, PointForce, Power, Slender,
+};
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
 pub use sink::{Channel, Kind, Role, Sink};
 pub use state::{Mode, Side, Size, State};

@@ -140,6 +140,17 @@ pub struct ContactSample {
     pub lost: f64,
 }
 
+/// A force at a point, of a load or a contact.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PointForce {
+    /// Name of the load or the contact.
+    pub name: String,
+    /// Where it acts, in the inertial frame \[m\].
+    pub place: Vec3,
+    /// The force on the model, inertial axes \[N\].
+    pub force: Vec3,
+}
+
 /// What a model shows of itself. Nothing here changes what a run computes: work memory at most is written.
 pub trait Observed: Dynamics {
     /// Kinetic, strain, gravity and contact energy.
@@ -184,6 +195,12 @@ pub trait Observed: Dynamics {
     /// Writes what presses at each of the [contacts](Observed::contacts), in their order.
     fn contact_samples(&mut self, _s: &State, out: &mut Vec<ContactSample>) {
         out.clear();
+    }
+
+    /// The forces of loads and contacts at points, for pictures. Their number and order do not depend on the state. Loads that
+    /// follow from the laws of a program are not among them, for such a law is asked once.
+    fn point_forces(&mut self, _s: &State) -> Vec<PointForce> {
+        Vec::new()
     }
 
     /// What unknown `i` (a velocity) moves.

@@ -6,9 +6,9 @@ use flexion::contact::{Circle, Contact, ContactForce, Contacting, Law, Obstacle,
 use flexion::integrator::{GeneralizedAlpha, Integrator, MoreauJean, NonsmoothAlpha};
 use flexion::linalg::{Structure, Vec3};
 use flexion::multibody::rotation::about;
-use flexion::multibody::{Body, Kind, Marker, Model, Multibody, Part};
+use flexion::multibody::{Axes, Body, Kind, Load, Marker, Model, Multibody, Part};
 use flexion::profile::Expression;
-use flexion::system::{Dynamics, Mode, State, System};
+use flexion::system::{Dynamics, Mode, Observed, State, System};
 use flexion::verify::dynamics;
 use std::sync::Arc;
 
@@ -66,6 +66,47 @@ fn a_point_of_a_body_conforms() {
     // The row does not hold here, and does work.
     defects.retain(|d| d.check != "dE/dt");
     assert_eq!(defects, []);
+}
+
+#[test]
+fn contacts_and_loads_say_where_they_act() {
+    let (height, angle) = (0.3, 0.6_f64);
+    let mut model = Model::new();
+    let mut body = odd_body("box", height);
+    body.frame.rotation = about([0.0, 0.0, angle]);
+    let origin = body.frame.position;
+    let part = model.body(body);
+    let own = Marker::new(part, [0.4, 0.0, 0.0]);
+    let push = |name: &str, axes, force: Vec3, moment: Vec3| Load {
+        name: name.into(),
+        at: own,
+        force,
+        moment,
+        axes,
+        amplitude: Some(Arc::new(Expression::new("2 + t", "t", 1.0).unwrap())),
+    };
+    model.load(push("turning", Axes::Follower, Vec3([3.0, 0.0, 0.0]), Vec3([0.0; 3])));
+    model.load(push("couple", Axes::Dead, Vec3([0.0; 3]), Vec3([1.0, 0.0, 0.0])));
+    model.load(push("fixed", Axes::Dead, Vec3([0.0, 0.0, 5.0]), Vec3([0.0; 3])));
+    model.contact_point(Marker::new(part, [0.0, 0.5, 0.0]));
+    let mut system = ground(model, 0.5);
+    let mut s = system.initial();
+    s.t = 0.5;
+    s.lambda[0] = 1.7;
+    let (sin, cos) = angle.sin_cos();
+    let expected = [
+        ("turning", [0.4 * cos, 0.4 * sin, 0.0], [7.5 * cos, 7.5 * sin, 0.0]),
+        ("fixed", [0.4 * cos, 0.4 * sin, 0.0], [0.0, 0.0, 12.5]),
+        ("ground", [-0.5 * sin, 0.5 * cos, 0.0], [0.0, 0.0, 1.7]),
+    ];
+    let found = system.point_forces(&s);
+    assert_eq!(found.len(), expected.len());
+    for (found, (name, from_origin, force)) in found.iter().zip(expected) {
+        assert_eq!(found.name, name);
+        let [place, size] =
+            [found.place - origin - Vec3(from_origin), found.force - Vec3(force)].map(|x| x.norm());
+        assert!(place < 1e-15 && size < 1e-14, "{found:?}");
+    }
 }
 
 /// A tilted rod falls on one end: Λ = (1 + e) u/(1/m + s²/J) at the horizontal distance s from its centre.

@@ -4,7 +4,7 @@ use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
 use crate::system::{
     Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode,
-    Observed, Power, Role, Sink, Slender, State,
+    Observed, PointForce, Power, Role, Sink, Slender, State,
 };
 
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
@@ -91,6 +91,19 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             let lost = placed.lost(near, forces);
             out.push(ContactSample { place, gap, rate: near.rate, force: forces.normal + 0.0, lost });
         });
+    }
+
+    fn point_forces(&mut self, s: &State) -> Vec<PointForce> {
+        let mut all = self.inner.point_forces(s);
+        for placed in &self.contacts {
+            let near = placed.proximity(&mut self.inner, s);
+            let force = placed.forces(&near, s, self.memory).vector(&near.surface);
+            let axes = self.inner.axes(placed.contact.point, s);
+            let touching = near.motion.position - near.motion.radius * near.surface.normal;
+            let name = placed.contact.name.clone();
+            all.push(PointForce { name, place: axes * touching, force: axes * force });
+        }
+        all
     }
 
     fn direction(&self, i: usize) -> Direction {

@@ -18,6 +18,10 @@ pub struct Force {
 }
 
 impl Load for Force {
+    fn point(&self) -> Option<&Force> {
+        Some(self)
+    }
+
     fn group(&self, site: &Site<'_>) -> Option<Group> {
         let share = Share { density: &|_| 0.0, points: &[(self.station, 1.0)], cells: site.fields.cells() };
         Some(site.group(&share, self.force, self.axes, self.amplitude.clone()))

@@ -57,6 +57,11 @@ pub trait Load: std::fmt::Debug + sealed::Sealed {
         None
     }
 
+    /// The force, of a load that is one at a point.
+    fn point(&self) -> Option<&Force> {
+        None
+    }
+
     /// The damper that comes with it.
     fn damper(&self, _site: &Site<'_>) -> Option<Damper> {
         None
@@ -86,6 +91,7 @@ pub struct Loads {
     groups: Vec<Group>,
     dampers: Vec<Damper>,
     laws: Vec<Sampled>,
+    points: Vec<Force>,
     breaks: Vec<Break>,
     /// Part of the loads that is not applied: 0 except during the continuation of an equilibrium.
     missing: f64,
@@ -100,7 +106,8 @@ impl Loads {
         let breaks = groups.iter().flat_map(Group::breaks).collect();
         let dampers = loads.iter().filter_map(|load| load.damper(site)).collect();
         let laws = loads.iter().filter_map(|load| load.sampled(site)).collect();
-        Loads { groups, dampers, laws, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
+        let points = loads.iter().filter_map(|load| load.point().cloned()).collect();
+        Loads { groups, dampers, laws, points, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
     }
 
     /// Whether there is no load.
@@ -111,6 +118,16 @@ impl Loads {
     /// Whether all forces are affine in displacements and velocities.
     pub fn is_affine(&self) -> bool {
         self.laws.iter().all(Sampled::is_affine)
+    }
+
+    /// Forces at points.
+    pub(super) fn points(&self) -> &[Force] {
+        &self.points
+    }
+
+    /// Part of the loads that is applied.
+    pub(super) fn part(&self) -> f64 {
+        1.0 - self.missing
     }
 
     /// Whether gravity is among them.

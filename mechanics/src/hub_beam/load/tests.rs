@@ -300,6 +300,31 @@ fn forces_and_torque_are_those_of_virtual_work_at_large_rotations() {
 }
 
 #[test]
+fn a_force_that_is_drawn_does_the_work_of_its_load() {
+    let beam = beam(&[]);
+    let build = || exact(hub(), &beam);
+    for axes in AXES {
+        let load = force(axes, STATION);
+        let mut system = build().with_loads(&beam, &[&load]);
+        let s = state(&system, 0.15);
+        let drawn = system.point_forces(&s)[0].clone();
+        // The place is linear in the coordinates of this coupling: the difference has errors of rounding alone.
+        let step = 1e-3;
+        let mut place = |i: usize, by: f64| {
+            let mut moved = s.clone();
+            moved.q[i] += by;
+            system.point_forces(&moved)[0].place
+        };
+        let work = |i: usize| drawn.force.dot(place(i, step) - place(i, -step)) / (2.0 * step);
+        let expected: Vec<f64> = (0..s.q.len()).map(work).collect();
+        let (forces, torque) = added(&build, &beam, &load, &s);
+        assert!(relative(&expected, &forces) < 1e-9, "{axes:?}: {expected:?} {forces:?}");
+        let moment = drawn.place.cross(drawn.force)[2];
+        assert!((moment / torque - 1.0).abs() < 1e-9, "{axes:?}: {moment} {torque}");
+    }
+}
+
+#[test]
 fn linear_couplings_have_the_linearised_forces_of_virtual_work() {
     let beam = beam(&[]);
     for foreshortening in [Foreshortening::None, Foreshortening::First] {
