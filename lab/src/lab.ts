@@ -15,6 +15,7 @@ import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import { Room } from "./room";
 import * as save from "./save";
 import { Source } from "./source";
+import { warm } from "./stage";
 import { zip } from "./zip";
 
 const element = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;
@@ -533,6 +534,8 @@ function example(path: string, { name, example }: { name: string; example: strin
   return { name, example: table.slice(0, end + 1) };
 }
 
+// While the engine comes.
+(window.requestIdleCallback ?? setTimeout)(() => warm(room.canvas));
 addEventListener("hashchange", follow);
 addEventListener("popstate", follow);
 void computer.ready
