@@ -4,7 +4,7 @@ import { numbers, type Results } from "./data";
 import { Columns } from "./curves";
 import { Player } from "./player";
 import type { Drawn, Kept, Room } from "./room";
-import { end, extent, instant, largest, pose, scene, sections, type Instant, type Part, type Section } from "./scene";
+import { end, extent, instant, largest, pose, scene, sections, type Acting, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { nice, steady, text } from "./text";
 import { button, choice, toggle } from "./tools";
@@ -66,7 +66,7 @@ function read(results: Results, other?: Results) {
     const from = Math.min(Math.floor(k / pieces), times.length - 1);
     return { from, to: Math.min(from + 1, times.length - 1), share: (k % pieces) / pieces };
   });
-  const forces = space.forces.map(({ values }) => values);
+  const strongest = (all: Acting[]) => Math.max(0, ...all.map(({ values }) => largest(values.filter((_, i) => i % 6 > 2))));
   return {
     results,
     space,
@@ -81,8 +81,8 @@ function read(results: Results, other?: Results) {
     revolutions,
     pieces,
     instants,
-    forces,
-    strongest: Math.max(0, ...forces.map((values) => largest(values.filter((_, i) => i % 6 > 2)))),
+    /** The largest force [N] and the largest couple [N·m]. */
+    strongest: [strongest(space.forces), strongest(space.moments)],
   };
 }
 
@@ -103,7 +103,7 @@ function turns(part: Part, times: Float64Array, recorded: Float64Array, angle?: 
 
 /** Whether runs are of the same parts at the same times: what is drawn of one can show the other. */
 function alike(one: Run, other: Run): boolean {
-  const form = ({ space: { times, parts, outlines, forces, planar }, straight }: Run) => [
+  const form = ({ space: { times, parts, outlines, forces, moments, planar }, straight }: Run) => [
     times.length,
     times[0],
     times[times.length - 1],
@@ -111,7 +111,8 @@ function alike(one: Run, other: Run): boolean {
     straight,
     ...parts.flatMap(({ name, beam, box }) => [name, ...(beam ? [beam.hub, ...beam.stations, ...beam.section] : box!)]),
     ...outlines.flatMap(({ name, points }) => [name, points.length]),
-    ...forces.map(({ name }) => name),
+    ...[...forces, ...moments].map(({ name }) => name),
+    forces.length,
   ];
   const [a, b] = [form(one), form(other)];
   return a.length === b.length && a.every((entry, i) => entry === b[i]);
@@ -136,11 +137,11 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   let rotating = kept?.rotating ?? run.revolutions > 0.5;
   let path = kept?.path ?? true;
 
-  /** Forces as arrows, as long as they are large. */
-  function arrows(at: Instant): [Vector3, Vector3][] {
-    return run.forces.flatMap((values): [Vector3, Vector3][] => {
+  /** Places of forces or couples, and vectors as long as they are large. */
+  function arrows(all: Acting[], strongest: number, at: Instant): [Vector3, Vector3][] {
+    return all.flatMap(({ values }): [Vector3, Vector3][] => {
       const entry = (i: number) => values[6 * at.from + i] + at.share * (values[6 * at.to + i] - values[6 * at.from + i]);
-      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar(stage.arrow / (run.strongest || 1));
+      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar(stage.arrow / (strongest || 1));
       return along.length() > 1e-2 * stage.arrow ? [[drawn(new Vector3(entry(0), entry(1), entry(2)), at), along]] : [];
     });
   }
@@ -228,7 +229,8 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
       outlines,
       frame: frame(at),
       others: others(time),
-      forces: arrows(at),
+      forces: arrows(space.forces, run.strongest[0], at),
+      moments: arrows(space.moments, run.strongest[1], at),
     });
     stage.follow(Math.floor(pieces * (at.from + at.share)) + 1);
     stage.render();
@@ -246,12 +248,13 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     player?.seek(time);
   });
   const note = () => {
-    const { results, revolutions, strongest } = run;
+    const { results, revolutions, strongest: [force, moment] } = run;
     const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
     const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in its own frame.`;
     const blind = stage.shown ? "" : "This browser has no WebGL: there is no picture, but curves.";
-    const forced = strongest > 0 ? `Arrows are forces, the longest ${text(strongest, 3)} N.` : "";
-    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, larger];
+    const forced = force > 0 ? `Arrows are forces, the longest ${text(force, 3)} N.` : "";
+    const turned = moment > 0 ? `Arcs are couples, the widest ${text(moment, 3)} N·m.` : "";
+    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, turned, larger];
     room.note.textContent = parts.join(" ").trim();
   };
   const again = (fitted = false) => {

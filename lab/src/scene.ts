@@ -27,13 +27,21 @@ export interface Beam {
   straight: boolean;
 }
 
+/** A force or a couple. */
+export interface Acting {
+  name: string;
+  values: Float64Array;
+}
+
 export interface Scene {
   times: Float64Array;
   parts: Part[];
   /** Outlines: three numbers a time and point. */
   outlines: { name: string; points: Float64Array }[];
   /** Forces: six numbers a time, the place and the force. */
-  forces: { name: string; values: Float64Array }[];
+  forces: Acting[];
+  /** Couples: six numbers a time, the place and the moment. */
+  moments: Acting[];
   /** Whether all stays in the plane of the first two axes. */
   planar: boolean;
 }
@@ -80,8 +88,8 @@ export function scene(arrays: Arrays): Scene {
   const flat = (part: Part) =>
     part.poses.every((x, i) => ![2, 4, 5].includes(i % 7) || Math.abs(x) < 1e-12) &&
     (part.beam?.displacements.every((x, i) => i % 3 !== 2 || x === 0) ?? false);
-  const forces = names(".force").map((name) => ({ name, values: get(`${name}.force`)! }));
-  return { times: get("time")!, parts, outlines, forces, planar: parts.every(flat) };
+  const acting = (what: string) => names(`.${what}`).map((name): Acting => ({ name, values: get(`${name}.${what}`)! }));
+  return { times: get("time")!, parts, outlines, forces: acting("force"), moments: acting("moment"), planar: parts.every(flat) };
 }
 
 /** Where `time` lies among ascending times. */

@@ -20,6 +20,8 @@ export interface Picture {
   others?: THREE.Vector3[][];
   /** Forces: where, and an arrow. */
   forces?: [THREE.Vector3, THREE.Vector3][];
+  /** Couples: where, and their axes. */
+  moments?: [THREE.Vector3, THREE.Vector3][];
   /** The frame of reference: what is drawn is seen from it. */
   frame: Section;
 }
@@ -217,6 +219,18 @@ export function warm(canvas: HTMLCanvasElement) {
   made.render(space, new THREE.OrthographicCamera());
 }
 
+/** Three quarters of a circle about an axis, with a point at its end: as wide as the axis is long. */
+function arc(at: THREE.Vector3, along: THREE.Vector3): THREE.Vector3[] {
+  const radius = 0.4 * along.length();
+  const axis = along.clone().normalize();
+  const first = (Math.abs(axis.z) > 0.9 ? new THREE.Vector3(1, 0, 0) : new THREE.Vector3(0, 0, 1)).cross(axis).normalize();
+  const point = (angle: number, r = radius) =>
+    first.clone().applyAxisAngle(axis, angle).multiplyScalar(r).add(at);
+  const end = 1.5 * Math.PI;
+  const points = Array.from({ length: 37 }, (_, k) => point((k * end) / 36));
+  return [...points, point(end - 0.45, 1.25 * radius), point(end), point(end - 0.45, 0.75 * radius)];
+}
+
 export class Stage {
   readonly size: number;
   /** Size of all that is shown, in the plane of the picture. */
@@ -232,6 +246,7 @@ export class Stage {
   private readonly paths: Line[] = [];
   private readonly others: Line[] = [];
   private readonly forces: Line[] = [];
+  private readonly moments: Line[] = [];
   private readonly axes: Line[];
 
   /** The camera is moved, and a picture follows. */
@@ -343,7 +358,9 @@ export class Stage {
     });
     picture.outlines.forEach((points, i) => this.outlines[i].place(points));
     this.draw(this.others, picture.others ?? [], () => new Line("curve1", 2.5, this.size / 40));
-    this.draw(this.forces, (picture.forces ?? []).map(([at, along]) => this.pointed(at, along)), () => new Line("force", 2));
+    const arrows = (picture.forces ?? []).map(([at, along]) => this.pointed(at, along));
+    this.draw(this.forces, arrows, () => new Line("force", 2));
+    this.draw(this.moments, (picture.moments ?? []).map(([at, along]) => arc(at, along)), () => new Line("force", 2));
   }
 
   /** Whether there is a picture at all. */
@@ -437,7 +454,7 @@ export class Stage {
   }
 
   private paint() {
-    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.forces];
+    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.forces, ...this.moments];
     for (const drawn of [...this.bodies, ...this.solids, ...lines]) drawn?.paint();
   }
 }

@@ -15,6 +15,7 @@ mod directory;
 mod error;
 mod estimate;
 mod events;
+mod forces;
 mod frequencies;
 mod load_path;
 mod nearest;

@@ -13,6 +13,7 @@
 //! | `NAME.box` | (6) | of a rigid body: centre in its axes, and edges \[m\] |
 //! | `NAME.outline` | (n, p, 3) | of an obstacle: points of its outline \[m\], inertial axes |
 //! | `NAME.force` | (n, 6) | of a load or a contact at a point that acts at some time: place \[m\] and force \[N\], inertial axes; of the largest 50 |
+//! | `NAME.moment` | (n, 6) | of a load with a couple, likewise: place \[m\] and couple [N·m] |
 //!
 //! and `time` (n) \[s\]. A section stands at p + R (x e₁ + u), with the pose p, R of the root. Displacements are kept apart from the pose
 //! so that small ones keep their digits: what changes with time is stored in single precision.
@@ -21,21 +22,20 @@ use std::io;
 
 use super::arrays::{Arrays, Numbers, list};
 use super::contour::Contour;
+use super::forces::Forces;
 use super::obstacles::Drawn;
 use super::shapes::stations;
 use super::spring::Spring;
 use flexion::linalg::{Mat3, Vec3};
 use flexion::multibody::rotation::{Quaternion, about};
 use flexion::section::Shape;
-use flexion::system::{Frame, PointForce, State, System};
+use flexion::system::{Frame, State, System};
 
 /// Equal intervals along a beam between whose ends it is drawn: at least, and at most.
 const INTERVALS: usize = 25;
 const MOST_INTERVALS: usize = 100;
 /// About the most times that are kept.
 const MOST: usize = 300;
-/// Most forces that are kept.
-const MOST_FORCES: usize = 50;
 /// Most numbers of states that wait to be drawn.
 const MOST_WAITING: usize = 1 << 22;
 
@@ -185,8 +185,7 @@ pub struct Scene {
     obstacles: Vec<Outline>,
     /// Springs, with a line a time.
     springs: Vec<(Spring, Vec<[Vec3; 2]>)>,
-    /// Loads and contacts by their names, with six numbers a time.
-    forces: Vec<(String, Vec<f32>)>,
+    forces: Forces,
     every: usize,
     seen: usize,
     /// States that were sampled and whose frames are still to be found: a run is not to wait for its pictures.
@@ -266,12 +265,7 @@ impl Scene {
         for (spring, lines) in &mut self.springs {
             lines.push(spring.line(system, state));
         }
-        for (i, PointForce { name, place, force }) in system.point_forces(state).into_iter().enumerate() {
-            if self.forces.len() == i {
-                self.forces.push((name, Vec::new()));
-            }
-            self.forces[i].1.extend(place.0.iter().chain(&force.0).map(|x| *x as f32));
-        }
+        self.forces.take(system, state);
         for Outline { drawn, points } in &mut self.obstacles {
             let mut frames = [Frame::default(); 2];
             system.frames(drawn.body, state, &[0.0, drawn.station], &mut frames);
@@ -363,30 +357,7 @@ impl Scene {
             let shape = [times, points.len() as u64 / (3 * times).max(1), 3];
             to.put(&format!("{}.outline", drawn.name), &shape, Numbers::Single(points))?;
         }
-        for (name, values) in self.acting() {
-            to.put(&format!("{name}.force"), &[times, 6], Numbers::Single(values))?;
-        }
-        Ok(())
-    }
-
-    /// The forces that act at some time, the largest of them, each with a name of its own.
-    fn acting(&self) -> Vec<(String, &[f32])> {
-        let size = |values: &[f32]| {
-            let forces = values.as_chunks::<6>().0.iter().flat_map(|at| &at[3..]);
-            forces.fold(0.0_f32, |most, x| most.max(x.abs()))
-        };
-        let mut acting: Vec<_> = self.forces.iter().filter(|(_, values)| size(values) > 0.0).collect();
-        acting.sort_by(|(_, a), (_, b)| size(b).total_cmp(&size(a)));
-        acting.truncate(MOST_FORCES);
-        let mut all: Vec<(String, &[f32])> = Vec::new();
-        for (name, values) in acting {
-            let mut own = name.clone();
-            while all.iter().any(|(taken, _)| *taken == own) {
-                own.push('\'');
-            }
-            all.push((own, values));
-        }
-        all
+        self.forces.put(times, to)
     }
 }
 
@@ -397,7 +368,7 @@ mod tests {
     use crate::archive;
     use flexion::contact::Plane;
     use flexion::multibody::rotation::{Quaternion, about};
-    use flexion::system::{Dynamics, Events, Observed, Size, Steady, Weights};
+    use flexion::system::{Dynamics, Events, Observed, PointForce, Size, Steady, Weights};
     use std::collections::BTreeMap;
     use std::io::Cursor;
     use std::sync::Arc;
@@ -422,14 +393,15 @@ mod tests {
     impl Events for Bent {}
     impl Steady for Bent {}
     impl Observed for Bent {
-        /// A force on the tip that grows with q, between one that is smaller and one that vanishes.
+        /// Forces and couples that grow with q, one that is smaller first, and one that vanishes.
         fn point_forces(&mut self, s: &State) -> Vec<PointForce> {
-            let force = |name: &str, x: f64| PointForce {
+            let force = |name: &str, x: f64, moment: f64| PointForce {
                 name: name.into(),
                 place: self.p,
                 force: Vec3([0.0, x * s.q[0], 0.0]),
+                moment: Vec3([moment * s.q[0], 0.0, 0.0]),
             };
-            vec![force("push", 0.5), force("push", 3.0), force("rest", 0.0)]
+            vec![force("push", 0.5, 0.0), force("push", 3.0, 0.0), force("twist", 0.0, -2.0)]
         }
         fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
             let root = about(self.d);
@@ -572,11 +544,13 @@ mod tests {
         [0.25, 0.5].iter().for_each(|q| scene.sample(&mut system, &at(*q)));
         scene.draw(&mut system);
         let all = written(&scene);
-        let names: Vec<&String> = all.keys().filter(|name| name.ends_with(".force")).collect();
-        assert_eq!(names, ["push'.force", "push.force"]);
+        let names: Vec<&String> =
+            all.keys().filter(|name| !name.starts_with("arm.") && *name != "time").collect();
+        assert_eq!(names, ["push'.force", "push.force", "twist.moment"]);
         let times = |a: f64, b: f64| vec![1.0, 2.0, 3.0, 0.0, a, 0.0, 1.0, 2.0, 3.0, 0.0, b, 0.0];
         assert_eq!(all["push.force"], (vec![2, 6], times(0.75, 1.5)));
         assert_eq!(all["push'.force"], (vec![2, 6], times(0.125, 0.25)));
+        assert_eq!(all["twist.moment"].1[3..6], [-0.5, 0.0, 0.0]);
     }
 
     #[test]

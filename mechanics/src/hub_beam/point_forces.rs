@@ -1,4 +1,4 @@
-//! Forces at points of the beam, as they are drawn.
+//! Forces and couples at points of the beam, as they are drawn.
 
 use super::coupling::Coupling;
 use super::load::{Axes, Force};
@@ -12,14 +12,14 @@ impl<C: Coupling> HubBeam<C> {
         if self.loads.points().is_empty() {
             return Vec::new();
         }
-        let stations: Vec<f64> = self.loads.points().iter().map(|force| force.station).collect();
+        let stations: Vec<f64> = self.loads.points().iter().map(|(force, _)| force.station).collect();
         let mut frames = vec![Frame::default(); stations.len()];
         // Their stations do not take the place of those that are drawn.
         std::mem::swap(&mut self.shown, &mut self.loaded);
         self.frames(0, s, &stations, &mut frames);
         std::mem::swap(&mut self.shown, &mut self.loaded);
         let (hub, part) = (about_third(self.kinematics(s).angle), self.loads.part());
-        let drawn = |(i, (force, frame)): (usize, (&Force, &Frame))| {
+        let drawn = |(i, ((force, couple), frame)): (usize, (&(Force, f64), &Frame))| {
             let axes = match force.axes {
                 Axes::Dead => Mat3::IDENTITY,
                 Axes::Hub => hub,
@@ -28,7 +28,8 @@ impl<C: Coupling> HubBeam<C> {
             let factor = part * force.amplitude.as_ref().map_or(1.0, |f| f.value(s.time()));
             let [x, y] = force.force;
             let force = axes * (factor * Vec3([x, y, 0.0]));
-            PointForce { name: format!("load{}", i + 1), place: frame.position, force }
+            let moment = Vec3([0.0, 0.0, factor * couple]);
+            PointForce { name: format!("load{}", i + 1), place: frame.position, force, moment }
         };
         self.loads.points().iter().zip(&frames).enumerate().map(drawn).collect()
     }

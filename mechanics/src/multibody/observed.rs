@@ -173,13 +173,11 @@ impl Observed for Multibody {
         self.place(s);
         let (mut all, mut work) = (Vec::new(), Interaction::new());
         for (k, load) in self.constants.model.loads.iter().enumerate() {
-            if load.force == Vec3::ZERO {
-                continue;
-            }
             work.clear(false);
             let at = self.load_end(k);
             load.interact(at, (s.time(), self.part), &mut work);
-            all.push(PointForce { name: load.name.clone(), place: at.position, force: work.wrench[2] });
+            let [.., force, moment] = work.wrench;
+            all.push(PointForce { name: load.name.clone(), place: at.position, force, moment });
         }
         all
     }

@@ -140,7 +140,7 @@ pub struct ContactSample {
     pub lost: f64,
 }
 
-/// A force at a point, of a load or a contact.
+/// A force and a couple at a point, of a load or a contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointForce {
     /// Name of the load or the contact.
@@ -149,6 +149,8 @@ pub struct PointForce {
     pub place: Vec3,
     /// The force on the model, inertial axes \[N\].
     pub force: Vec3,
+    /// The couple on it [N·m].
+    pub moment: Vec3,
 }
 
 /// What a model shows of itself. Nothing here changes what a run computes: work memory at most is written.
@@ -197,7 +199,7 @@ pub trait Observed: Dynamics {
         out.clear();
     }
 
-    /// The forces of loads and contacts at points, for pictures. Their number and order do not depend on the state. Loads that
+    /// The forces and couples of loads and contacts at points, for pictures. Their number and order do not depend on the state. Loads that
     /// follow from the laws of a program are not among them, for such a law is asked once.
     fn point_forces(&mut self, _s: &State) -> Vec<PointForce> {
         Vec::new()

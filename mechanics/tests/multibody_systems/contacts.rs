@@ -85,7 +85,7 @@ fn contacts_and_loads_say_where_they_act() {
         axes,
         amplitude: Some(Arc::new(Expression::new("2 + t", "t", 1.0).unwrap())),
     };
-    model.load(push("turning", Axes::Follower, Vec3([3.0, 0.0, 0.0]), Vec3([0.0; 3])));
+    model.load(push("turning", Axes::Follower, Vec3([3.0, 0.0, 0.0]), Vec3([0.0, 2.0, 0.0])));
     model.load(push("couple", Axes::Dead, Vec3([0.0; 3]), Vec3([1.0, 0.0, 0.0])));
     model.load(push("fixed", Axes::Dead, Vec3([0.0, 0.0, 5.0]), Vec3([0.0; 3])));
     model.contact_point(Marker::new(part, [0.0, 0.5, 0.0]));
@@ -95,17 +95,18 @@ fn contacts_and_loads_say_where_they_act() {
     s.lambda[0] = 1.7;
     let (sin, cos) = angle.sin_cos();
     let expected = [
-        ("turning", [0.4 * cos, 0.4 * sin, 0.0], [7.5 * cos, 7.5 * sin, 0.0]),
-        ("fixed", [0.4 * cos, 0.4 * sin, 0.0], [0.0, 0.0, 12.5]),
-        ("ground", [-0.5 * sin, 0.5 * cos, 0.0], [0.0, 0.0, 1.7]),
+        ("turning", [0.4 * cos, 0.4 * sin, 0.0], [7.5 * cos, 7.5 * sin, 0.0], [-5.0 * sin, 5.0 * cos, 0.0]),
+        ("couple", [0.4 * cos, 0.4 * sin, 0.0], [0.0; 3], [2.5, 0.0, 0.0]),
+        ("fixed", [0.4 * cos, 0.4 * sin, 0.0], [0.0, 0.0, 12.5], [0.0; 3]),
+        ("ground", [-0.5 * sin, 0.5 * cos, 0.0], [0.0, 0.0, 1.7], [0.0; 3]),
     ];
     let found = system.point_forces(&s);
     assert_eq!(found.len(), expected.len());
-    for (found, (name, from_origin, force)) in found.iter().zip(expected) {
+    for (found, (name, from_origin, force, moment)) in found.iter().zip(expected) {
         assert_eq!(found.name, name);
-        let [place, size] =
-            [found.place - origin - Vec3(from_origin), found.force - Vec3(force)].map(|x| x.norm());
-        assert!(place < 1e-15 && size < 1e-14, "{found:?}");
+        let place = (found.place - origin - Vec3(from_origin)).norm();
+        let [force, moment] = [found.force - Vec3(force), found.moment - Vec3(moment)].map(|x| x.norm());
+        assert!(place < 1e-15 && force < 1e-14 && moment < 1e-14, "{found:?}");
     }
 }
 

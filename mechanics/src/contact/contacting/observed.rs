@@ -2,6 +2,7 @@
 
 use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
+use crate::linalg::Vec3;
 use crate::system::{
     Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode,
     Observed, PointForce, Power, Role, Sink, Slender, State,
@@ -101,7 +102,7 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             let axes = self.inner.axes(placed.contact.point, s);
             let touching = near.motion.position - near.motion.radius * near.surface.normal;
             let name = placed.contact.name.clone();
-            all.push(PointForce { name, place: axes * touching, force: axes * force });
+            all.push(PointForce { name, place: axes * touching, force: axes * force, moment: Vec3::ZERO });
         }
         all
     }

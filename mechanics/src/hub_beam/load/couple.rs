@@ -1,7 +1,7 @@
 //! A couple on a section.
 
 use super::group::Group;
-use super::{Amplitude, Axes, Kinematics, Load, Site};
+use super::{Amplitude, Axes, Force, Kinematics, Load, Site};
 use crate::hub_beam::fields::add_vector;
 
 /// A couple f(t) M about the normal of the plane of motion, on the section at one station. In the plane it does the
@@ -17,6 +17,11 @@ pub struct Couple {
 }
 
 impl Load for Couple {
+    fn at_point(&self) -> Option<(Force, f64)> {
+        let (station, amplitude) = (self.station, self.amplitude.clone());
+        Some((Force { station, force: [0.0; 2], axes: Axes::Dead, amplitude }, self.couple))
+    }
+
     fn group(&self, site: &Site<'_>) -> Option<Group> {
         let point = site.fields.point(self.station, 1.0);
         let mut group = Group::new(site.fields.len(), [0.0; 2], Axes::Hub, self.amplitude.clone());

@@ -18,8 +18,8 @@ pub struct Force {
 }
 
 impl Load for Force {
-    fn point(&self) -> Option<&Force> {
-        Some(self)
+    fn at_point(&self) -> Option<(Force, f64)> {
+        Some((self.clone(), 0.0))
     }
 
     fn group(&self, site: &Site<'_>) -> Option<Group> {

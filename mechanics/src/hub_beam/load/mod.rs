@@ -57,8 +57,8 @@ pub trait Load: std::fmt::Debug + sealed::Sealed {
         None
     }
 
-    /// The force, of a load that is one at a point.
-    fn point(&self) -> Option<&Force> {
+    /// The force and the couple [N·m] of a load at a point.
+    fn at_point(&self) -> Option<(Force, f64)> {
         None
     }
 
@@ -91,7 +91,7 @@ pub struct Loads {
     groups: Vec<Group>,
     dampers: Vec<Damper>,
     laws: Vec<Sampled>,
-    points: Vec<Force>,
+    points: Vec<(Force, f64)>,
     breaks: Vec<Break>,
     /// Part of the loads that is not applied: 0 except during the continuation of an equilibrium.
     missing: f64,
@@ -106,7 +106,7 @@ impl Loads {
         let breaks = groups.iter().flat_map(Group::breaks).collect();
         let dampers = loads.iter().filter_map(|load| load.damper(site)).collect();
         let laws = loads.iter().filter_map(|load| load.sampled(site)).collect();
-        let points = loads.iter().filter_map(|load| load.point().cloned()).collect();
+        let points = loads.iter().filter_map(|load| load.at_point()).collect();
         Loads { groups, dampers, laws, points, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
     }
 
@@ -120,8 +120,8 @@ impl Loads {
         self.laws.iter().all(Sampled::is_affine)
     }
 
-    /// Forces at points.
-    pub(super) fn points(&self) -> &[Force] {
+    /// Forces and couples at points.
+    pub(super) fn points(&self) -> &[(Force, f64)] {
         &self.points
     }
 

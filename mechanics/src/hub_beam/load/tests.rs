@@ -325,6 +325,19 @@ fn a_force_that_is_drawn_does_the_work_of_its_load() {
 }
 
 #[test]
+fn a_couple_that_is_drawn_turns_as_its_section_does() {
+    let beam = beam(&[]);
+    let load = Couple { station: STATION, couple: -4.0, amplitude: profile("1 + t^2") };
+    let mut system = exact(hub(), &beam).with_loads(&beam, &[&load]);
+    let s = state(&system, 0.15);
+    let drawn = system.point_forces(&s);
+    let mut frame = [crate::system::Frame::default()];
+    system.frames(0, &s, &[STATION], &mut frame);
+    assert_eq!((drawn[0].place, drawn[0].force), (frame[0].position, Default::default()));
+    assert_eq!(drawn[0].moment.0, [0.0, 0.0, -4.0 * (1.0 + s.t * s.t)]);
+}
+
+#[test]
 fn linear_couplings_have_the_linearised_forces_of_virtual_work() {
     let beam = beam(&[]);
     for foreshortening in [Foreshortening::None, Foreshortening::First] {
