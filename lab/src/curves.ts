@@ -52,7 +52,11 @@ export const plain = () => ({
 function ranged(_: uPlot, low: number | null, high: number | null): [number, number] {
   if (low === null || high === null) return [0, 1];
   const size = Math.max(Math.abs(low), Math.abs(high));
-  if (high - low > 1e-7 * size && size > 1e-290) return uPlot.rangeNum(low, high, 0.1, true) as [number, number];
+  // uPlot's own range is empty where values differ by less than 1e-6.
+  const margin = 0.1 * (high - low);
+  if (high - low > 1e-7 * size && size > 1e-290) {
+    return [low >= 0 ? Math.max(low - margin, 0) : low - margin, high <= 0 ? Math.min(high + margin, 0) : high + margin];
+  }
   const middle = (low + high) / 2;
   const about = 1e-3 * Math.abs(middle) || 1;
   return [middle - about, middle + about];

@@ -171,6 +171,16 @@ const journeys = {
   async "on paper"(page) {
     await page.goto(`${lab}#case=roll_up`);
     await answered(page);
+    // Every panel has a curve, of values that hardly differ too.
+    const painted = await page.$$eval(".panel canvas", (all) => all.map((canvas) => {
+      const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 60 && data[i + 2] > data[i] + 60) count += 1;
+      return count;
+    }));
+    assert.ok(painted.length >= 4 && painted.every((count) => count > 100), `pixels of curves: ${painted}`);
+    // 2π EI/L.
+    assert.match(await page.textContent("#note"), /Arcs are couples, the widest 628 N·m/);
     await page.emulateMedia({ media: "print" });
     for (const id of ["#tools", "#stop", "footer"]) assert.ok(await page.locator(id).isHidden(), `${id} is not printed`);
     for (const id of ["#text", "#title"]) assert.ok(await page.locator(id).isVisible(), `${id} is printed`);
