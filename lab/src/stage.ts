@@ -249,6 +249,9 @@ export class Stage {
   private readonly moments: Line[] = [];
   private readonly axes: Line[];
 
+  /** Width of the picture [px], and what the scale shows: asking the page for them would lay it out anew. */
+  private width = 0;
+  private scale: string[] = [];
   /** The camera is moved, and a picture follows. */
   private moving = false;
   private readonly canvas: HTMLCanvasElement;
@@ -432,16 +435,19 @@ export class Stage {
   }
 
   render() {
-    if (!this.renderer || this.canvas.clientWidth === 0) return;
+    if (!this.renderer || this.width === 0) return;
     this.renderer.render(this.space, this.camera);
-    const pixel = (this.camera.right - this.camera.left) / this.camera.zoom / this.canvas.clientWidth;
+    const pixel = (this.camera.right - this.camera.left) / this.camera.zoom / this.width;
     const length = nice(110 * pixel);
-    this.bar.style.width = `${length / pixel}px`;
-    this.bar.textContent = `${text(length)} m`;
+    const scale = [`${length / pixel}px`, `${text(length)} m`];
+    if (scale.join() === this.scale.join()) return;
+    this.scale = scale;
+    [this.bar.style.width, this.bar.textContent] = scale;
   }
 
   private resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement!;
+    this.width = width;
     if (width === 0 || height === 0) return;
     this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer?.setSize(width, height, false);
