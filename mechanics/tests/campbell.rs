@@ -55,7 +55,7 @@ fn blocks_computed_apart_and_in_any_order_make_the_same_diagram() {
     assert_eq!(Speeds::blocks(&plan), 3);
     let last = one.block(2, || true);
     let blocks = vec![one.block(0, || true), other.block(1, || true), last];
-    assert_eq!(alone, assemble(&mut other, blocks).unwrap());
+    assert_eq!(alone, assemble(&mut other, blocks, || true).unwrap());
     assert_eq!(alone.branches.len(), 4);
     assert!(alone.branches.iter().all(|b| b.points.len() == alone.speeds.len()));
     assert!(one.block(1, || false).ends());
@@ -72,6 +72,25 @@ fn a_diagram_that_is_stopped_keeps_the_speeds_that_are_done() {
     assert!(stopped.speeds.iter().eq(whole.speeds.iter().filter(|speed| **speed <= last)));
     assert!(
         matches!(&stopped.instabilities[..], [Instability::Lost { reason, .. }] if reason.contains("stopped"))
+    );
+}
+
+#[test]
+fn a_stop_while_speeds_are_inserted_ends_the_diagram_there() {
+    // The first axial mode is met by bending modes.
+    let plan = plan(40.0, 3, 4);
+    let whole = diagram(70.0, &plan);
+    assert!(whole.speeds.len() > plan.speeds.len());
+    let mut calls = 0;
+    let stopped = campbell(beam(70.0, Foreshortening::First), &plan, |_| {
+        calls += 1;
+        calls <= plan.speeds.len()
+    })
+    .unwrap();
+    assert_eq!(calls, plan.speeds.len() + 1);
+    assert!(plan.speeds.starts_with(&stopped.speeds) && stopped.speeds.len() < plan.speeds.len());
+    assert!(
+        matches!(&stopped.instabilities[..], [.., Instability::Lost { reason, .. }] if reason.contains("stopped"))
     );
 }
 

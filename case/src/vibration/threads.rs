@@ -31,7 +31,7 @@ pub fn campbell(
         !stop.load(Ordering::Relaxed)
     };
     let (mut speeds, blocks) = computed(system, plan, threads, &next)?;
-    let mut diagram = assemble(&mut speeds, blocks)?;
+    let mut diagram = assemble(&mut speeds, blocks, || next(plan.speeds.len()))?;
     if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1 && next(plan.speeds.len())) {
         let plan = Plan { speeds: diagram.speeds.clone(), ..plan.clone() };
         let (_, blocks) = computed(finer, &plan, threads, &|_| next(plan.speeds.len()))?;

@@ -57,14 +57,19 @@ pub fn campbell(
             break;
         }
     }
-    assemble(&mut speeds, blocks)
+    assemble(&mut speeds, blocks, || progress(done))
 }
 
-/// The diagram of the blocks in their order, up to the first that ends; `system` computes what is needed in between.
+/// The diagram of the blocks in their order, up to the first that ends; `system` computes what is needed in between. `progress` is called before each
+/// speed that is inserted, and stops by `false`: the diagram ends there.
 ///
 /// # Errors
 /// As [`campbell`].
-pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell, NoCampbell> {
+pub fn assemble(
+    system: &mut Speeds<'_>,
+    blocks: Vec<Block>,
+    mut progress: impl FnMut() -> bool,
+) -> Result<Campbell, NoCampbell> {
     let plan = system.plan();
     let mut solved = Vec::with_capacity(plan.speeds.len());
     let mut ended = None;
@@ -82,7 +87,10 @@ pub fn assemble(system: &mut Speeds<'_>, blocks: Vec<Block>) -> Result<Campbell,
         break;
     }
     system.rest();
-    let (solved, matches) = refine(system, solved)?;
+    let Refined { solved, matches, stopped } = refine(system, solved, &mut progress)?;
+    if stopped {
+        ended = Some(NoCampbell::Stopped);
+    }
     let Tracker { mut branches, .. } = join(&solved, &matches, plan.count);
     let crossings = crossings(system, &solved, &branches, plan.revolutions);
     system.describe(&solved, &mut branches);
@@ -130,11 +138,21 @@ fn divergence(system: &mut Speeds<'_>, solved: &[Solved]) -> Vec<Instability> {
     out
 }
 
-/// Inserts speeds where a shape changes too much from one to the next; with the matches of each speed with the next.
+/// Speeds between which no shape changes too much.
+struct Refined {
+    solved: Vec<Solved>,
+    /// Of each speed with the next.
+    matches: Vec<Vec<Match>>,
+    /// Whether it was stopped before the last one.
+    stopped: bool,
+}
+
+/// Inserts speeds where a shape changes too much from one to the next.
 fn refine(
     system: &mut Speeds<'_>,
     solved: Vec<Solved>,
-) -> Result<(Vec<Solved>, Vec<Vec<Match>>), NoCampbell> {
+    progress: &mut dyn FnMut() -> bool,
+) -> Result<Refined, NoCampbell> {
     let Plan { count, speeds, .. } = system.plan();
     let range = speeds.last().zip(speeds.first()).map_or(0.0, |(last, first)| last - first);
     let count = *count;
@@ -157,10 +175,12 @@ fn refine(
             let matches = match_shapes(from, to);
             let interval = to.speed - from.speed;
             let clear = matches.iter().take(count).all(|m| m.is_clear()) || interval <= 1.5 * smallest;
-            let ordered = interval <= CROSSING * range || !changes_order(&matches, count);
+            let ordered = interval <= CROSSING * range || !changes_order(from, to, &matches, count);
             if clear && ordered {
                 all.push(matches);
                 out.extend(ahead.pop());
+            } else if !progress() {
+                return Ok(Refined { solved: out, matches: all, stopped: true });
             } else {
                 let place =
                     if clear && expected < EXPECTED { crossing(from, to, &matches, count) } else { None };
@@ -171,7 +191,7 @@ fn refine(
             }
         }
     }
-    Ok((out, all))
+    Ok(Refined { solved: out, matches: all, stopped: false })
 }
 
 /// A speed next to the `place` in an interval at which modes are expected to change their order, before it or else behind it: with both,

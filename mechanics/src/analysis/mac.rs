@@ -22,7 +22,7 @@ use num_complex::Complex64;
 
 /// Size of n over that of its terms, below which it counts as zero.
 const VANISHING: f64 = 1e-3;
-/// Size of 2ω + |x||G x| over twice the highest frequency, below which it is rounding: that of a motion without stiffness which G does not see.
+/// Size of 2ω + Σ |x_k (G x)_k| over twice the highest frequency, below which it is rounding: that of a motion without stiffness which G does not see.
 const ROUNDING: f64 = 1e-9;
 
 /// xᴴ y
@@ -50,29 +50,36 @@ pub(super) fn gyroscopic<'a>(
 }
 
 /// n of mode `i`, unless it vanishes.
-fn norm(of: &Solved, i: usize) -> Option<f64> {
+pub(super) fn norm(of: &Solved, i: usize) -> Option<f64> {
     let (mode, gx) = (&of.modes[i], of.gyroscopic.get(i)?);
     let twice = 2.0 * mode.frequency();
     let gyroscopic = product(&mode.vector, gx).im;
     let n = twice + gyroscopic;
     let highest = of.modes.iter().map(Mode::frequency).fold(0.0, f64::max);
-    let size = |x: &[Complex64]| product(x, x).re.sqrt();
-    let is_seen = twice + size(&mode.vector) * size(gx) > ROUNDING * 2.0 * highest;
+    let terms: f64 = mode.vector.iter().zip(gx).map(|(x, gx)| x.norm() * gx.norm()).sum();
+    let is_seen = twice + terms > ROUNDING * 2.0 * highest;
     (is_seen && n.abs() > VANISHING * (twice + gyroscopic.abs())).then_some(n)
+}
+
+/// xᴴ ((ω_x + ω_y) M − i G) y of mode `i` at one speed and mode `j` at another, and the same of (−ω_x, x̄); with M and G of the mean of both
+/// speeds, where they are known at both.
+pub(super) fn forms(from: &Solved, i: usize, to: &Solved, j: usize) -> [Complex64; 2] {
+    let (x, y) = (&from.modes[i], &to.modes[j]);
+    let (gx, gy) = (&from.gyroscopic[i], &to.gyroscopic[j]);
+    let half = Complex64::new(0.0, 0.5);
+    // Gᵀ = −G.
+    let same = product(&x.vector, &to.massed[j]) * (x.frequency() + y.frequency())
+        - half * (product(&x.vector, gy) - product(gx, &y.vector));
+    let conjugate = plain(&x.vector, &to.massed[j]) * (y.frequency() - x.frequency())
+        - half * (plain(&x.vector, gy) - plain(gx, &y.vector));
+    [same, conjugate]
 }
 
 /// Likeness of mode `i` at one speed and mode `j` at another, from 0 to 1.
 pub(super) fn mac(from: &Solved, i: usize, to: &Solved, j: usize) -> f64 {
-    let (x, y) = (&from.modes[i], &to.modes[j]);
     let (Some(n), Some(m)) = (norm(from, i), norm(to, j)) else {
-        return assurance(&x.vector, &to.massed[j]);
+        return assurance(&from.modes[i].vector, &to.massed[j]);
     };
-    let (gx, gy) = (&from.gyroscopic[i], &to.gyroscopic[j]);
-    let half = Complex64::new(0.0, 0.5);
-    // Gᵀ = −G; the mean of both speeds.
-    let same = product(&x.vector, &to.massed[j]) * (x.frequency() + y.frequency())
-        - half * (product(&x.vector, gy) - product(gx, &y.vector));
-    let conjugate = plain(&x.vector, &to.massed[j]) * (x.frequency() - y.frequency())
-        - half.conj() * (plain(&x.vector, gy) - plain(gx, &y.vector));
+    let [same, conjugate] = forms(from, i, to, j);
     (same.norm_sqr().max(conjugate.norm_sqr()) / (n * m).abs()).min(1.0)
 }

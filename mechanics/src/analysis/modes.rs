@@ -7,7 +7,9 @@
 //! Rows of constraints that hold are part of K, [K −Gᵀ; −G 0], in which K has the multipliers of the equilibrium: a solution
 //! with it is a motion that G allows, and the cost stays linear in the unknowns where the multipliers stand in the band.
 
-use super::rigid::{BELOW, RIGID, RIGID_MOTIONS, elastic_frequency, has_rigid_motions, is_without_form};
+use super::rigid::{
+    BELOW, RIGID, RIGID_MOTIONS, beyond, elastic_frequency, has_rigid_motions, is_without_form, parts,
+};
 use super::stability::GROWTH;
 use super::stiffness::{freedoms, matrices};
 use crate::linalg::Matrix;
@@ -374,11 +376,12 @@ fn accept(
             pair = pencil.purified_at_its_size(pair.value, pair.vector);
         }
         let mut mode = mode(system, state, pencil, pair, &scale, rigid);
-        let again = |m: &Mode| m.eigenvalue == Complex64::ZERO && parallel(&m.vector, &mode.vector);
         if mode.eigenvalue == Complex64::ZERO {
-            // A defective rigid motion is known to half the digits.
-            if !modes.iter().any(again) {
-                modes.push(mode);
+            // Each comes twice, in any combination.
+            let known = modes.iter().filter(|m| m.eigenvalue == Complex64::ZERO).map(|m| m.vector.as_slice());
+            if let Some(vector) = beyond(std::mem::take(&mut mode.vector), known, pencil) {
+                let pair = Pair { value: mode.eigenvalue, vector, residual: mode.residual };
+                modes.push(self::mode(system, state, pencil, pair, &scale, rigid));
             }
             continue;
         }
@@ -441,14 +444,6 @@ fn correct(system: &mut dyn System, state: &State, pencil: &Pencil, modes: &mut 
     }
 }
 
-/// Whether two vectors are multiples of each other.
-fn parallel(x: &[Complex64], y: &[Complex64]) -> bool {
-    let inner = |a: &[Complex64], b: &[Complex64]| {
-        a.iter().zip(b).map(|(a, b)| a.conj() * b).sum::<Complex64>().norm()
-    };
-    inner(x, y) > (1.0 - 1e-6) * (inner(x, x) * inner(y, y)).sqrt()
-}
-
 /// Lowest frequency of the system with its rigid motions held.
 fn held_frequency(system: &mut dyn System, state: &State) -> Option<f64> {
     system.hold(true);
@@ -457,11 +452,6 @@ fn held_frequency(system: &mut dyn System, state: &State) -> Option<f64> {
     held[1].clear();
     let pairs = Pencil::new(held, multipliers, 0.0).and_then(|mut pencil| pencil.pairs(1, &[]));
     pairs.ok()?.first().map(|pair| pair.value.norm())
-}
-
-/// Real and imaginary part.
-fn parts(x: &[Complex64]) -> [Vec<f64>; 2] {
-    [x.iter().map(|x| x.re).collect(), x.iter().map(|x| x.im).collect()]
 }
 
 /// Shares of a vector x of modal mass 1, from x and M x.

@@ -23,6 +23,9 @@ const STRAINED: f64 = 1e-3;
 /// Standard deviations of a sum of random signs within which it is.
 const DEVIATIONS: f64 = 3.0;
 
+/// Part of the modal mass of a motion without stiffness, up to which it is rounding of others.
+const DEFECTIVE: f64 = 2e-6;
+
 /// Whether the pencil of K, which was factored, has a motion that rounding alone decides, by the strains where the system sums them; or whether the
 /// elimination makes rounding errors grow.
 pub(super) fn has_rigid_motions(pencil: &mut Pencil, system: &mut dyn System, state: &State) -> bool {
@@ -47,9 +50,37 @@ pub(super) fn is_without_form(
     x: &[Complex64],
     rigid: f64,
 ) -> bool {
-    let of = |part: fn(&Complex64) -> f64| x[..state.v.len()].iter().map(part).collect::<Vec<f64>>();
-    let form = strain_form(system, state, vec![of(|x| x.re), of(|x| x.im)]);
+    let form = strain_form(system, state, parts(&x[..state.v.len()]).into());
     form.is_none_or(|form| form.is_zero_but_for(rigid * rigid * pencil.modal_mass(x)))
+}
+
+/// What a motion without stiffness has beyond those `known`, of modal mass 1, in the inner product of M; nothing where it is a combination of them.
+pub(super) fn beyond<'a>(
+    mut vector: Vec<Complex64>,
+    known: impl Iterator<Item = &'a [Complex64]>,
+    pencil: &Pencil,
+) -> Option<Vec<Complex64>> {
+    for known in known {
+        let within = inner(known, &vector, pencil);
+        vector.iter_mut().zip(known).for_each(|(x, y)| *x -= within * y);
+    }
+    // A defective eigenvalue has its vector to half the digits.
+    (inner(&vector, &vector, pencil).re > DEFECTIVE).then_some(vector)
+}
+
+/// Real and imaginary part.
+pub(super) fn parts(x: &[Complex64]) -> [Vec<f64>; 2] {
+    [x.iter().map(|x| x.re).collect(), x.iter().map(|x| x.im).collect()]
+}
+
+/// xᴴ M y
+fn inner(x: &[Complex64], y: &[Complex64], pencil: &Pencil) -> Complex64 {
+    let ([re, im], mut my) = (parts(y), vec![0.0; y.len()]);
+    let mut with = |part: &[f64]| -> Complex64 {
+        pencil.mass().multiply(part, &mut my);
+        x.iter().zip(&my).map(|(x, my)| x.conj() * my).sum()
+    };
+    with(&re) + Complex64::I * with(&im)
 }
 
 /// The form xᵀKx of a motion by the strains.

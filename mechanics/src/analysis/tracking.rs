@@ -1,5 +1,6 @@
 //! Joining modes of neighbouring speeds by their shapes.
 
+use super::degenerate::are_equal;
 use super::diagram::{Branch, Point};
 use super::mac::mac;
 use super::modes::Mode;
@@ -7,6 +8,8 @@ use super::solved::Solved;
 
 /// Assurance above which two shapes are taken for one mode.
 const CLEAR: f64 = 0.6;
+/// Assurance below which nothing continues a mode.
+const FOREIGN: f64 = 0.01;
 /// Assurance above which no other shape can be more like.
 const ORDERED: f64 = 0.9;
 
@@ -37,9 +40,14 @@ fn certain(matches: &[Match], count: usize) -> Vec<(usize, usize)> {
     certain.filter_map(|(i, m)| Some((i, m.to?))).collect()
 }
 
-/// Whether two of the first `count` modes change their order: they cross, or veer so far that the step passes over it.
-pub(super) fn changes_order(matches: &[Match], count: usize) -> bool {
-    certain(matches, count).windows(2).any(|pair| pair[0].1 > pair[1].1)
+/// Whether two of the first `count` modes change their order: they cross, or veer so far that the step passes over it. Modes that are of one
+/// eigenvalue at both speeds have no order.
+pub(super) fn changes_order(from: &Solved, to: &Solved, matches: &[Match], count: usize) -> bool {
+    let are_one = |of: &Solved, i: usize, j: usize| are_equal(of.modes[i].eigenvalue, of.modes[j].eigenvalue);
+    certain(matches, count).windows(2).any(|pair| {
+        let [(a, c), (b, d)] = [pair[0], pair[1]];
+        c > d && !(are_one(from, a, b) && are_one(to, c, d))
+    })
 }
 
 /// The lowest speed at which two of the first `count` modes are expected to change their order, if their eigenvalues are linear in between.
@@ -125,7 +133,7 @@ impl Tracker {
     pub(super) fn step(&mut self, matches: &[Match], to: &Solved) {
         for (branch, at) in self.branches.iter_mut().zip(&mut self.at) {
             let next = at.and_then(|at| matches.get(at)).and_then(|m| {
-                let lost = m.edge && m.assurance < CLEAR;
+                let lost = m.assurance < if m.edge { CLEAR } else { FOREIGN };
                 m.to.filter(|_| !lost).map(|to| (to, m.assurance))
             });
             *at = next.map(|(to, _)| to);
