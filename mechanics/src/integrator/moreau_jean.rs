@@ -104,6 +104,7 @@ impl MoreauSteps {
         self.choose(system, from, h);
         to.v.copy_from_slice(&from.v);
         to.copy_modes(from);
+        self.middle.memory.copy_from_slice(&from.memory);
         self.impulses.fill(0.0);
         self.convergence.begin(true);
         loop {
