@@ -428,8 +428,7 @@ impl Prepared {
         let columns = Columns { energy_balance, modal_shares };
         let mut recorder = Recorder::new(system.as_mut(), &state, &plan, columns)
             .with_watch(watch)
-            .with_sampled(&mut pictures)
-            .with_jumps_in_steps(integrator.resolves_contacts());
+            .with_sampled(&mut pictures);
         let parts = (system.as_mut(), integrator.as_ref());
         let (ending, checkpoint) = match &history {
             None => transient_to_checkpoint(parts.0, parts.1, &mut state, &plan, &mut recorder),

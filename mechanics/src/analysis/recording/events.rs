@@ -315,11 +315,8 @@ impl Events {
                         entry.duration = closed.since.map(|since| time - since);
                         entry.impulse = closed.since.map(|_| closed.impulse);
                         entry.force = closed.since.map(|_| closed.force);
-                        let since = closed.since.unwrap_or(f64::NEG_INFINITY);
-                        if !self.by_step {
-                            let burst = rigid.add([since, time], closed.impulse, apart);
-                            ended.extend(burst.map(|burst| (i, burst)));
-                        }
+                        let burst = rigid.add_closure(&closed, time, (apart, self.by_step));
+                        ended.extend(burst.map(|burst| (i, burst)));
                     }
                     push(entry);
                 }
@@ -358,7 +355,7 @@ impl Events {
         let mut gaps = vec![0.0; self.contacts.len()];
         from.fill("events.gaps", &mut gaps)?;
         self.contacts.iter_mut().zip(gaps).for_each(|(contact, gap)| contact.gap = gap);
-        let mut memories = vec![[0.0; 9]; self.rigid.len()];
+        let mut memories = vec![[0.0; 10]; self.rigid.len()];
         from.fill("events.rigid", memories.as_flattened_mut())?;
         self.rigid.iter_mut().zip(memories).for_each(|(rigid, memory)| rigid.recall(memory));
         let mut memories = vec![[0.0; 19]; self.pressed.len()];
@@ -370,12 +367,9 @@ impl Events {
     /// Closes the bursts that go on at the end `time` of a run.
     pub(super) fn end(&mut self, time: f64) {
         for i in 0..self.contacts.len() {
-            let closed = self.rigid[i].closed.take().filter(|_| !self.by_step);
-            let apart = self.apart;
-            let last = closed.and_then(|closed| {
-                let since = closed.since.unwrap_or(f64::NEG_INFINITY);
-                self.rigid[i].add([since, time], closed.impulse, apart)
-            });
+            let (apart, by_step) = (self.apart, self.by_step);
+            let last = self.rigid[i].closed.take();
+            let last = last.and_then(|closed| self.rigid[i].add_closure(&closed, time, (apart, by_step)));
             let bursts = last.into_iter().chain(self.rigid[i].end());
             bursts.for_each(|burst| self.close(i, &burst));
         }

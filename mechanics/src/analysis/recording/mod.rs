@@ -79,9 +79,7 @@ pub fn record_watched(
 ) -> Record {
     let mut state = start.clone();
     let columns = Columns { energy_balance: true, ..Columns::default() };
-    let mut recorder = Recorder::new(system, &state, plan, columns)
-        .with_watch(watch)
-        .with_jumps_in_steps(integrator.resolves_contacts());
+    let mut recorder = Recorder::new(system, &state, plan, columns).with_watch(watch);
     let (ending, checkpoint) = transient_to_checkpoint(system, integrator, &mut state, plan, &mut recorder);
     recorder.into_record(system, state, checkpoint.counters().unwrap_or_default(), ending)
 }

@@ -183,14 +183,6 @@ impl<'a> Recorder<'a> {
         Recorder { sampled: Some(sampled), ..self }
     }
 
-    /// The recorder, for a method in whose steps velocities may jump: no curve is drawn through their ends.
-    #[must_use]
-    pub fn with_jumps_in_steps(mut self, jumps: bool) -> Recorder<'a> {
-        self.passing.rough = jumps && !self.events.is_empty();
-        self.events.by_step = jumps;
-        self
-    }
-
     /// What makes the motion doubtful: the run has gained energy that nothing has put in, its energy balance does not close,
     /// a point may have stepped over an obstacle, or fixed steps do not resolve a vibration.
     fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
@@ -251,6 +243,12 @@ impl<'a> Recorder<'a> {
 impl Observer for Recorder<'_> {
     fn wants_energy_balance(&self) -> bool {
         self.common.balance
+    }
+
+    /// No curve is drawn through the ends of steps in which velocities jump.
+    fn begin(&mut self, jumps: bool) {
+        self.passing.rough = jumps && !self.events.is_empty();
+        self.events.by_step = jumps;
     }
 
     fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step) {

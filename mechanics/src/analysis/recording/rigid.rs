@@ -19,6 +19,8 @@ pub(super) struct Closed {
     pub(super) since: Option<f64>,
     /// ∫λ dt [N·s]
     pub(super) impulse: f64,
+    /// Part of it that the burst has by steps already [N·s].
+    pub(super) counted: f64,
     /// Largest λ \[N\].
     pub(super) force: f64,
 }
@@ -50,11 +52,27 @@ impl Rigid {
     pub(super) fn push(&mut self, lambda: f64, [since, time]: [f64; 2], apart: f64) -> Option<Burst> {
         let impulse = (time - since) * lambda;
         self.impulse += impulse;
+        self.lambda = lambda;
         if let Some(closed) = &mut self.closed {
             closed.impulse += impulse;
+            closed.counted += impulse;
             closed.force = closed.force.max(lambda);
         }
         if lambda > 0.0 { self.add([time; 2], impulse, apart) } else { None }
+    }
+
+    /// Adds a closure until `time`, but for what it has of steps that were added by themselves, `by_step` all of it.
+    pub(super) fn add_closure(
+        &mut self,
+        closed: &Closed,
+        time: f64,
+        (apart, by_step): (f64, bool),
+    ) -> Option<Burst> {
+        let rest = closed.impulse - closed.counted;
+        if by_step && rest == 0.0 {
+            return None;
+        }
+        self.add([closed.since.unwrap_or(f64::NEG_INFINITY), time], rest, apart)
     }
 
     /// Adds an impact or a closure of an impulse from `since` until `time`; gives the burst that has ended before it, `apart` \[s\] or more.
@@ -69,21 +87,21 @@ impl Rigid {
         }
     }
 
-    /// What later events depend on: whether it is closed, since when, impulse and largest force, and of the burst beginning, end, impulse and
+    /// What later events depend on: whether it is closed, since when, impulse, the part that is counted and largest force, and of the burst beginning, end, impulse and
     /// number of parts; λ. NaN stands for what is not known.
-    pub(super) fn memory(&self) -> [f64; 9] {
-        let Closed { since, impulse, force } = self.closed.clone().unwrap_or_default();
+    pub(super) fn memory(&self) -> [f64; 10] {
+        let Closed { since, impulse, counted, force } = self.closed.clone().unwrap_or_default();
         let Burst { range, impulse: whole, parts } = self.burst.clone().unwrap_or_default();
         let closed = f64::from(u8::from(self.closed.is_some()));
         let since = since.unwrap_or(f64::NAN);
-        [closed, since, impulse, force, range[0], range[1], whole, parts as f64, self.lambda]
+        [closed, since, impulse, counted, force, range[0], range[1], whole, parts as f64, self.lambda]
     }
 
     /// From the [memory](Rigid::memory) of a run.
-    pub(super) fn recall(&mut self, memory: [f64; 9]) {
-        let [closed, since, impulse, force, start, end, whole, parts, lambda] = memory;
+    pub(super) fn recall(&mut self, memory: [f64; 10]) {
+        let [closed, since, impulse, counted, force, start, end, whole, parts, lambda] = memory;
         let since = Some(since).filter(|since| !since.is_nan());
-        self.closed = (closed != 0.0).then_some(Closed { since, impulse, force });
+        self.closed = (closed != 0.0).then_some(Closed { since, impulse, counted, force });
         let burst = Burst { range: [start, end], impulse: whole, parts: parts as usize };
         self.burst = (parts > 0.0).then_some(burst);
         self.lambda = lambda;

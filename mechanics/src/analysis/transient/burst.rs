@@ -14,7 +14,7 @@
 use super::breaks::next_break;
 use super::contacts::Contacts;
 use super::segment::Segment;
-use super::{Ending, Leg, Observer, Plan, Run, RunError};
+use super::{Ending, Event, EventKind, Leg, Observer, Plan, Run, RunError};
 use crate::integrator::{Integration, Integrator, NonsmoothAlpha, StepError};
 use crate::system::{State, System};
 
@@ -48,6 +48,7 @@ impl Run {
         if let Some(balance) = &mut self.balance {
             balance.begin_burst(system, state);
         }
+        observer.begin(true);
         let within = Plan { step: Some(self.bursts.step), longest_step: None, contact_step: None, ..*plan };
         let result = self.nonsmooth(system, state, &within, observer, integrator, own.0);
         (self.control, self.segment) = (own.1, own.2);
@@ -59,6 +60,9 @@ impl Run {
             self.bursts.open = true;
             return Ok(ended);
         }
+        observer.begin(false);
+        observer.event(&Event { time: state.t, kind: EventKind::Switch, modes: state.mode.clone() });
+        observer.passing(system, state);
         if let Some(control) = &mut self.control {
             control.restart(step);
         }

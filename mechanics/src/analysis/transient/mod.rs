@@ -165,6 +165,7 @@ impl Run {
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
         }
+        observer.begin(integrator.resolves_contacts());
         self.segment = plan.step.filter(|_| is_fixed(integrator.info())).map(|h| {
             let stop = next_break(system, integrator.info(), state.t, plan.end);
             Segment::new(state.t, stop, h)

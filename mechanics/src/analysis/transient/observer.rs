@@ -68,6 +68,9 @@ pub trait Observer {
     /// A state at a time to be recorded.
     fn sample(&mut self, system: &mut dyn System, state: &State, step: &Step);
 
+    /// A method begins in whose steps velocities may jump, so that a multiplier is the impulse of its step over its size, or one in which they do not.
+    fn begin(&mut self, _jumps: bool) {}
+
     /// An accepted step ended at `state`, or a jump: what happens between samples is seen here.
     fn passing(&mut self, _system: &mut dyn System, _state: &State) {}
 

@@ -116,6 +116,7 @@ impl Run {
             self.balance = Some(balance);
         }
         integration.resume(system, from)?;
+        observer.begin(integrator.resolves_contacts());
         observer.resume(from)?;
         Ok(integration)
     }
