@@ -371,9 +371,10 @@ export class Stage {
     return this.renderer !== undefined;
   }
 
-  /** Length of the longest arrow. */
+  /** Length of the longest arrow: by the model, or by what is shown where that is far larger, or smaller, as of a beam that is rolled up. */
   get arrow(): number {
-    return 0.2 * Math.max(this.size, 0.5 * this.extent);
+    const { size, extent } = this;
+    return 0.2 * (extent > 0 ? Math.max(Math.min(size, extent), 0.5 * extent) : size);
   }
 
   /** Where it is looked from. */
