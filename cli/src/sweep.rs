@@ -45,7 +45,7 @@ pub struct Arguments {
     /// Seed of the sample [default: 0]
     #[arg(long, value_name = "S", requires = "sample")]
     seed: Option<u64>,
-    /// A value to collect, e.g. tip.deflection.min, .max or .final; a column alone stands for all three; may be repeated
+    /// A quantity to collect, e.g. tip.deflection.min, .max, .final, .mean or .amplitude; a column alone stands for the first three; may be repeated
     #[arg(long, value_name = "COLUMN", required = true)]
     collect: Vec<String>,
     /// Estimate errors of each row, of a sample of 20 rows spread over the inputs, or of none

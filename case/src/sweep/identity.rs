@@ -2,6 +2,7 @@
 
 use super::Sweep;
 use super::points::Column;
+use super::written::bare;
 use flexion_results::VERSION;
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
@@ -25,7 +26,7 @@ impl Sweep {
             match column {
                 Column::Numbers(of) => of.iter().for_each(|x| inputs.update(x.to_bits().to_le_bytes())),
                 Column::Texts(texts, of) => {
-                    of.iter().for_each(|text| field(&mut inputs, texts[*text as usize].as_bytes()));
+                    of.iter().for_each(|text| field(&mut inputs, bare(&texts[*text as usize]).as_bytes()));
                 }
             }
         }

@@ -256,7 +256,7 @@ impl Sweep {
     pub fn point(&self, row: usize) -> Vec<Point> {
         let value = |column: &Column| match column {
             Column::Numbers(of) => Point::Number(of[row]),
-            Column::Texts(texts, of) => Point::Text(bare(&texts[of[row] as usize])),
+            Column::Texts(texts, of) => Point::Text(written::bare(&texts[of[row] as usize])),
         };
         self.columns.iter().map(value).collect()
     }
@@ -410,12 +410,4 @@ fn first(problems: &Problems) -> String {
             format!("{}: {}", problem.key, problem.message)
         }
     })
-}
-
-/// A text of `--set` without the quotes of TOML.
-fn bare(text: &str) -> String {
-    let quoted =
-        text.starts_with(['"', '\'']).then(|| toml::from_str::<toml::Table>(&format!("text = {text}")).ok());
-    let read = quoted.flatten().and_then(|table| table.get("text")?.as_str().map(str::to_owned));
-    read.unwrap_or_else(|| text.to_owned())
 }

@@ -3,7 +3,7 @@
 use super::distribution::{self, Distribution, SHAPE};
 use super::inputs::{Cell, Inputs, Table};
 use super::points::Levels;
-use super::written::{self, Written, number_end};
+use super::written::{self, Written, bare, number_end};
 use crate::declaration::Type;
 use crate::problem::{Place, Problem, Problems, Source};
 use crate::reading::Reading;
@@ -59,8 +59,8 @@ impl Takes {
             Takes::Integer => text.parse::<i64>().ok()? as f64,
             Takes::Number => text.parse().ok()?,
             Takes::Quantity(measure) => {
-                let plain = unquoted(text);
-                plain.parse().ok().or_else(|| units::parse(plain, measure).ok())?
+                let bare = bare(text);
+                bare.parse().ok().or_else(|| units::parse(&bare, measure).ok())?
             }
         };
         x.is_finite().then_some(x)
@@ -440,10 +440,10 @@ impl<'a> Reader<'a> {
             let end = number_end(text);
             end == text.len() && text.parse() != Ok(0.0)
         };
-        let texts = || texts.iter().map(|text| unquoted(text));
-        let bare = texts().filter(|text| plain(text)).count();
-        let united = texts().filter(|text| !plain(text) && text.parse::<f64>().is_err()).count();
-        if bare == 0 || united == 0 {
+        let texts: Vec<String> = texts.iter().map(|text| bare(text)).collect();
+        let without = texts.iter().filter(|text| plain(text)).count();
+        let united = texts.iter().filter(|text| !plain(text) && text.parse::<f64>().is_err()).count();
+        if without == 0 || united == 0 {
             return Some(());
         }
         let message = format!("some values have a unit and others none, which would be in {}", measure.unit);
@@ -474,12 +474,6 @@ impl<'a> Reader<'a> {
         }
         Some(Levels::Range { ends: [from, to], count, whole })
     }
-}
-
-/// A text without the quotation marks around it.
-fn unquoted(text: &str) -> &str {
-    let marks = ['"', '\''];
-    marks.into_iter().find_map(|mark| text.strip_prefix(mark)?.strip_suffix(mark)).unwrap_or(text)
 }
 
 /// Whether a change sets a key that ends as another does.

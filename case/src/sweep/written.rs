@@ -127,6 +127,14 @@ fn string_end(text: &str, start: usize) -> usize {
     text.len()
 }
 
+/// A text without the quotes of TOML.
+pub(super) fn bare(text: &str) -> String {
+    let quoted =
+        text.starts_with(['"', '\'']).then(|| toml::from_str::<toml::Table>(&format!("text = {text}")).ok());
+    let read = quoted.flatten().and_then(|table| table.get("text")?.as_str().map(str::to_owned));
+    read.unwrap_or_else(|| text.to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
