@@ -177,7 +177,8 @@ class Case:
     def modes(self, speed: float = 0.0, count: int = 10, *, free_hub: bool = False, unit: str = "rad/s") -> Modes:
         """The modes of small vibrations about the equilibrium in steady rotation at a speed [rad/s].
 
-        The hub keeps its speed, or rotates with the beam where it is free. ``unit`` is that of texts and figures: ``"rad/s"``, ``"Hz"`` or ``"rpm"``.
+        The hub keeps its speed, or rotates with the beam where it is free. ``unit`` is that of texts and figures: ``"rad/s"``, ``"Hz"``, or ``"rpm"`` of speeds
+        with Hz of frequencies.
         """
         modes = Modes(self._case.modes(float(speed), _count(count), free_hub, unit))
         warn(modes.warnings)

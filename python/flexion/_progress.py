@@ -28,7 +28,8 @@ class Progress:
         self._drawn = False
         self._handle: Any = None
         self._notebook = show is not False and _in_notebook()
-        self._show = self._notebook or _on_terminal() if show is None else show
+        asked = _on_terminal() if show is None else show
+        self._show = self._notebook or asked and sys.stderr is not None
 
     def __call__(self, part: float, text: str) -> bool:
         """Whether the computation is to stop."""

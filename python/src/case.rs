@@ -159,13 +159,12 @@ impl Case {
             let (run, raised) = Run::of(py, &self.reading, &request, Watch::new(notify))?;
             return Ok((run, raised, None));
         }
-        let (laws, by_law) = law::laws(laws)?;
+        let (laws, held) = law::laws(laws)?;
         let reading = guarded(py, || self.reading.with_laws(laws))?;
         let reading = Arc::new(reading.map_err(|problems| faults::problems(py, &problems))?);
-        let of_law = || by_law.lock().ok().and_then(|mut raised| raised.take());
-        let (run, raised) =
-            Run::of(py, &reading, &request, Watch::new(notify)).map_err(|error| of_law().unwrap_or(error))?;
-        Ok((run, raised, of_law()))
+        let (run, raised) = Run::of(py, &reading, &request, Watch::new(notify))
+            .map_err(|error| held.raised().unwrap_or(error))?;
+        Ok((run, raised, held.raised()))
     }
 
     fn modes(&self, py: Python<'_>, speed: f64, count: usize, free_hub: bool, unit: &str) -> PyResult<Modes> {

@@ -4,12 +4,13 @@ use super::value;
 use super::watch::ending;
 use flexion::command::{Command, LawState, Timing};
 use flexion_case::{Law, Start};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyMapping, PyTuple};
+use pyo3::types::{PyFloat, PyMapping, PyTuple};
 use std::sync::{Arc, Mutex};
 
 /// What a law has raised.
-pub type Raised = Arc<Mutex<Option<PyErr>>>;
+type Raised = Arc<Mutex<Option<PyErr>>>;
 
 /// Name, load, columns that are read, states with their starts and sizes, period or none, times of breaks, what makes the function of a run.
 pub type Given<'py> = (
@@ -22,23 +23,49 @@ pub type Given<'py> = (
     Py<PyAny>,
 );
 
-/// The laws as the engine takes them, and where what they raise is found.
-pub fn laws(given: Vec<Given<'_>>) -> PyResult<(Vec<Law>, Raised)> {
-    let raised = Raised::default();
-    let law = |(name, load, reads, states, period, breaks, make): Given<'_>| {
+/// What laws of a run keep of Python until it has ended: a function may hold the results of the run, and the collector of Python does not see
+/// that these hold the function.
+pub struct Held {
+    makers: Vec<Arc<Maker>>,
+    raised: Raised,
+}
+
+impl Held {
+    /// What a law has raised first.
+    pub fn raised(&self) -> Option<PyErr> {
+        self.raised.lock().ok().and_then(|mut raised| raised.take())
+    }
+}
+
+impl Drop for Held {
+    fn drop(&mut self) {
+        for maker in &self.makers {
+            if let Ok(mut make) = maker.make.lock() {
+                *make = None;
+            }
+        }
+    }
+}
+
+/// The laws as the engine takes them, and what they hold.
+pub fn laws(given: Vec<Given<'_>>) -> PyResult<(Vec<Law>, Held)> {
+    let mut held = Held { makers: Vec::new(), raised: Raised::default() };
+    let mut law = |(name, load, reads, states, period, breaks, make): Given<'_>| {
         let load = load.map(|load| value::table(&load, &name, 0)).transpose()?;
         let load = load.map(|load| toml::Value::Table(load).to_string());
         let timing = period.map_or(Timing::Continuous { breaks }, |period| Timing::Sampled { period });
         let states = states.into_iter().map(|(name, start, size)| LawState { name, start, size }).collect();
-        let start = Arc::new(Maker { make, raised: Arc::clone(&raised) });
+        let start = Arc::new(Maker { make: Mutex::new(Some(make)), raised: Arc::clone(&held.raised) });
+        held.makers.push(Arc::clone(&start));
         PyResult::Ok(Law { name, load, reads, states, timing, start })
     };
-    Ok((given.into_iter().map(law).collect::<PyResult<_>>()?, raised))
+    let listed = given.into_iter().map(&mut law).collect::<PyResult<_>>()?;
+    Ok((listed, held))
 }
 
 #[derive(Debug)]
 struct Maker {
-    make: Py<PyAny>,
+    make: Mutex<Option<Py<PyAny>>>,
     raised: Raised,
 }
 
@@ -53,7 +80,11 @@ fn keep(raised: &Raised, error: PyErr) -> String {
 
 impl Start for Maker {
     fn start(&self) -> Result<Box<dyn Command>, String> {
-        let function = Python::attach(|py| self.make.call0(py)).map_err(|error| keep(&self.raised, error))?;
+        let function = Python::attach(|py| {
+            let make = self.make.lock().ok().and_then(|make| make.as_ref().map(|make| make.clone_ref(py)));
+            make.ok_or_else(|| "belongs to a run that has ended".to_owned())
+                .and_then(|make| make.call0(py).map_err(|error| keep(&self.raised, error)))
+        })?;
         Ok(Box::new(Function { function, raised: Arc::clone(&self.raised) }))
     }
 }
@@ -72,13 +103,24 @@ impl Command for Function {
             let y = PyTuple::new(py, y)?;
             let given = self.function.call1(py, (t, y))?;
             if rates.is_empty() {
-                return given.extract::<f64>(py);
+                return real(given.bind(py));
             }
-            let (value, of_states) = given.extract::<(f64, Vec<f64>)>(py)?;
+            let (value, of_states) = given.extract::<(Bound<'_, PyAny>, Vec<f64>)>(py)?;
+            let value = real(&value)?;
             // `_made` gives one for each.
             rates.iter_mut().zip(of_states).for_each(|(rate, of)| *rate = of);
             Ok(value)
         });
         asked.map_err(|error| format!("{} at t = {t:.6} s", keep(&self.raised, error)))
     }
+}
+
+/// The number that a law gives. NumPy makes complex numbers real ones, with no more than a warning.
+fn real(given: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let is_complex = !given.is_instance_of::<PyFloat>()
+        && given
+            .getattr("dtype")
+            .and_then(|dtype| dtype.getattr("kind"))
+            .is_ok_and(|kind| kind.eq("c").unwrap_or(false));
+    if is_complex { Err(PyTypeError::new_err("must be real number, not complex")) } else { given.extract() }
 }

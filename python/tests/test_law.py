@@ -592,3 +592,34 @@ def test_a_run_that_ends_at_its_start_is_kept_and_says_why_it_holds_nothing(free
     folder = run.save(tmp_path / "run")
     with pytest.raises(flexion.AnalysisError, match="holds no records: .* failed: .*ZeroDivisionError: no torque"):
         flexion.load(folder)
+
+
+@pytest.mark.parametrize("number", [1 + 0j, np.complex64(1), np.complex128(1 + 5j), np.clongdouble(1)])
+def test_a_complex_number_is_no_torque(free: flexion.Case, number: Any) -> None:
+    with pytest.raises(TypeError, match="complex"):
+        free.run(laws={"hub.torque": flexion.law(lambda t, state: number)})
+    with pytest.raises(TypeError, match="complex"):
+        free.run(laws={"hub.torque": flexion.law(lambda t, state: (number, {"x": 0.0}), states={"x": 0.0})})
+
+
+def test_a_controller_that_keeps_its_run_or_its_error_is_freed(free: flexion.Case) -> None:
+    class Controller:
+        kept: Any = None
+
+        def torque(self, t: float, state: State) -> float:
+            return 1.0
+
+        def failing(self, t: float, state: State) -> float:
+            raise ValueError
+
+    short, controllers = free.with_("run.duration", 0.1), []
+    for law in (lambda of: of.torque, lambda of: flexion.sampled(0.01, lambda: of.torque), lambda of: of.failing):
+        controller = Controller()
+        try:
+            controller.kept = short.run(errors="off", laws={"hub.torque": law(controller)})
+        except flexion.RunError as error:
+            controller.kept = error
+        controllers.append(weakref.ref(controller))
+    del controller
+    gc.collect()
+    assert [controller() for controller in controllers] == [None, None, None]
