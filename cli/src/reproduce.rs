@@ -6,6 +6,7 @@ use flexion_reproduce::{
     Answer, Counts, Described, Options, Progress, Reproduced, built_in, built_in_names, check, comparable,
     compute, expected, from_folder, identity_of_program, of_paper, write,
 };
+use flexion_results::{Artifact, Directory, try_file, write_file};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -21,7 +22,8 @@ use std::sync::atomic::Ordering;
   flexion reproduce P3 P5 --check
 
 A paper is one of those that are built in, or a folder with a paper.toml; PAPER/ITEM is one figure or table of it. Runs that are done are kept in the
-folder of the results, and the same program takes them up again. The page is report.html; the values are beside it as CSV.
+folder of the results, and the same program takes them up again. The page is report.html; the values are beside it as CSV. A new report takes the
+place of a former one of the program, whole or not at all.
 
 Exit codes: 0 all is computed (with --check: and as accepted); 1 a paper is rejected; 2 stopped, or with --check something has changed.")]
 pub struct Arguments {
@@ -43,7 +45,15 @@ pub struct Arguments {
     /// Number of threads [default: one for each processor]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     threads: usize,
+    /// Write into a folder that holds other files too, which are left alone
+    #[arg(long, conflicts_with = "check")]
+    force: bool,
 }
+
+/// Where runs that are done are kept, within the folder of the report.
+const KEPT: &str = "kept";
+/// The accepted values of a paper, within its folder.
+const EXPECTED: &str = "expected.toml";
 
 /// A paper, where it is from, and its items that are asked for.
 struct Asked {
@@ -75,7 +85,7 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
         long: arguments.long,
         only: None,
         threads: arguments.threads,
-        keep: (!arguments.check).then(|| arguments.output.join("kept")),
+        keep: (!arguments.check).then(|| arguments.output.join(KEPT)),
         identity: identity_of_program(),
     };
     let mut sound = true;
@@ -88,8 +98,56 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
     if !sound {
         return Outcome::Rejected;
     }
+    // What will be written is tried before anything is computed.
+    let directory = match writable(arguments, &papers) {
+        Ok(directory) => directory,
+        Err(error) => {
+            screen::report(&format!("error: {error}\n"));
+            return Outcome::Rejected;
+        }
+    };
+    let Some(answers) = computed(&papers, &common, &stopped) else {
+        if let Some(directory) = &directory {
+            directory.discard();
+        }
+        return Outcome::Incomplete;
+    };
+    let Some(directory) = directory else { return checked(&papers, &answers) };
+    if arguments.accept
+        && let Err(error) = accept(&papers, &answers)
+    {
+        screen::report(&format!("error: {error}\n"));
+        directory.discard();
+        return Outcome::Incomplete;
+    }
+    report(&papers, &answers, &directory)
+}
+
+/// The folder of the report, locked, after the accepted values of each paper have been tried; none with `--check`.
+fn writable(
+    arguments: &Arguments,
+    papers: &[Asked],
+) -> Result<Option<Directory>, flexion_results::OutputError> {
+    if arguments.check {
+        return Ok(None);
+    }
+    if arguments.accept {
+        papers
+            .iter()
+            .filter_map(|of| of.folder.as_ref())
+            .try_for_each(|folder| try_file(&folder.join(EXPECTED)))?;
+    }
+    Directory::renew(Artifact::REPORT, &arguments.output, arguments.force, KEPT).map(Some)
+}
+
+/// The answers of the runs of all papers; `None` where it was stopped, which is said.
+fn computed(
+    papers: &[Asked],
+    common: &Options,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Option<Vec<Vec<Option<Answer>>>> {
     let mut answers: Vec<Vec<Option<Answer>>> = Vec::new();
-    for Asked { paper, items, .. } in &papers {
+    for Asked { paper, items, .. } in papers {
         let (needs, numbers) = of_paper(paper);
         let only: BTreeSet<usize> =
             numbers.iter().filter(|((item, _), _)| items.contains(item)).map(|(_, number)| *number).collect();
@@ -99,7 +157,7 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
             bar.set_style(style);
         }
         bar.set_prefix(paper.name.clone());
-        let computed = compute(&paper.cases, &needs, &options, &stopped, &|Progress { done, of, .. }| {
+        let computed = compute(&paper.cases, &needs, &options, stopped, &|Progress { done, of, .. }| {
             bar.set_length(of as u64);
             bar.set_position(done as u64);
         });
@@ -108,35 +166,34 @@ pub fn reproduce(arguments: &Arguments) -> Outcome {
             Ok(computed) => answers.push(computed),
             Err(error) => {
                 screen::report(&format!("{error}\n"));
-                return Outcome::Incomplete;
+                return None;
             }
         }
     }
-    if arguments.check {
-        return checked(&papers, &answers);
+    Some(answers)
+}
+
+/// Writes what came out as the accepted values of papers in folders.
+fn accept(papers: &[Asked], answers: &[Vec<Option<Answer>>]) -> Result<(), String> {
+    for (of, answers) in papers.iter().zip(answers) {
+        let Some(folder) = &of.folder else { continue };
+        let text = expected(&of.paper, answers).map_err(|error| error.to_string())?;
+        write_file(&folder.join(EXPECTED), text.as_bytes()).map_err(|error| error.to_string())?;
     }
-    if arguments.accept {
-        for (of, answers) in papers.iter().zip(&answers) {
-            let Some(folder) = &of.folder else { continue };
-            let text = expected(&of.paper, answers).map_err(|error| error.to_string());
-            let written = text.and_then(|text| {
-                flexion_results::write_file(&folder.join("expected.toml"), text.as_bytes())
-                    .map_err(|error| error.to_string())
-            });
-            if let Err(error) = written {
-                screen::report(&format!("error: {error}\n"));
-                return Outcome::Incomplete;
-            }
-        }
-    }
+    Ok(())
+}
+
+/// Writes the report and says what came out.
+fn report(papers: &[Asked], answers: &[Vec<Option<Answer>>], directory: &Directory) -> Outcome {
     let reproduced: Vec<Reproduced<'_>> = papers
         .iter()
-        .zip(&answers)
+        .zip(answers)
         .map(|(of, answers)| Reproduced { paper: &of.paper, answers, items: of.items.clone() })
         .collect();
-    let files = match write(&reproduced, &arguments.output) {
+    let files = match write(&reproduced, directory) {
         Ok(files) => files,
         Err(error) => {
+            directory.discard();
             screen::report(&format!("error: {error}\n"));
             return Outcome::Incomplete;
         }

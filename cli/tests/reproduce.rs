@@ -50,3 +50,51 @@ fn what_was_accepted_is_not_thrown_away() {
     }
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "[values");
 }
+
+/// Where a report cannot be written, or would replace what is not its own, nothing is computed.
+#[test]
+fn a_folder_is_judged_before_anything_is_computed() {
+    let folder = tempfile::tempdir().unwrap();
+    paper(folder.path());
+    let there = |name: &str| folder.path().join(name);
+    let call =
+        |more: &[&str]| flexion(folder.path(), &[&["reproduce", "mine", "--output", "out"], more].concat());
+    let refused = |more: &[&str], said: &str| {
+        let output = call(more);
+        let error = text(&output.stderr);
+        assert!(output.status.code() == Some(1) && error.contains(said), "{error}");
+        assert!(!there("out/kept").exists(), "{error}");
+    };
+    std::fs::write(there("out"), "a file").unwrap();
+    refused(&[], "is a file");
+    std::fs::remove_file(there("out")).unwrap();
+    std::fs::create_dir(there("out")).unwrap();
+    std::fs::write(there("out/report.html"), "of a former version").unwrap();
+    refused(&["--force"], "a version before kept none");
+    std::fs::remove_file(there("out/report.html")).unwrap();
+    std::fs::write(there("out/notes.txt"), "mine").unwrap();
+    refused(&[], "notes.txt");
+    let lock = std::fs::File::open(there("out")).unwrap();
+    lock.lock().unwrap();
+    refused(&["--force"], "another run is writing");
+    drop(lock);
+    std::fs::create_dir(there("mine/expected.toml")).unwrap();
+    refused(&["--force", "--accept"], "expected.toml");
+    std::fs::remove_dir(there("mine/expected.toml")).unwrap();
+    let names = || {
+        let all = std::fs::read_dir(there("out")).unwrap().map(|file| file.unwrap().file_name());
+        let mut all: Vec<String> = all.map(|name| name.into_string().unwrap()).collect();
+        all.sort();
+        all
+    };
+    assert_eq!(call(&["--force"]).status.code(), Some(0));
+    assert_eq!(
+        names(),
+        [".flexion-files", "claims.csv", "kept", "mine_T1_table.csv", "notes.txt", "report.html"]
+    );
+    // A former report goes as a whole.
+    std::fs::remove_file(there("out/notes.txt")).unwrap();
+    std::fs::rename(there("mine"), there("other")).unwrap();
+    assert_eq!(flexion(folder.path(), &["reproduce", "other", "--output", "out"]).status.code(), Some(0));
+    assert_eq!(names(), [".flexion-files", "claims.csv", "kept", "other_T1_table.csv", "report.html"]);
+}

@@ -104,6 +104,11 @@ artifacts! {
         AdviceJson "advice.json" "the cheapest run that holds a tolerance, and all that were tried",
         AdviceCsv "advice.csv" "all that were tried as a table",
     }
+    /// The files of a report on papers, the tables of their items aside; the first marks the directory as complete.
+    REPORT {
+        Report "report.html" "figures, tables and verdicts",
+        Claims "claims.csv" "the claims with their verdicts",
+    }
 }
 
 impl Artifact {
@@ -125,12 +130,14 @@ impl Artifact {
 
     /// Whether results of the kind `own` may have a file of this name.
     pub(super) fn may_be_of(own: &[Artifact], name: &str) -> bool {
-        let without_case = [Artifact::COMPARISON, Artifact::BEAMDYN, Artifact::HAWC2].contains(&own);
+        let without_case =
+            [Artifact::COMPARISON, Artifact::BEAMDYN, Artifact::HAWC2, Artifact::REPORT].contains(&own);
         let case = (!without_case).then_some(&Artifact::ResolvedCase);
         let fixed = own.iter().chain(case).any(|artifact| artifact.file_name() == name);
         let shape = name.strip_prefix(SHAPES).and_then(|rest| rest.strip_prefix('/'));
         let of = |series| own.contains(&series);
         fixed
+            || (of(Artifact::Report) && Artifact::is_value_table(name))
             || (of(Artifact::SectionTable) && Artifact::is_table(name))
             || ((of(Artifact::ShapeSeries) || of(Artifact::ModesSeries))
                 && shape.is_some_and(Artifact::is_shape))
@@ -139,6 +146,12 @@ impl Artifact {
     /// Whether results of any kind may have a file of this name.
     pub(super) fn is_name(name: &str) -> bool {
         Artifact::SETS.iter().any(|own| Artifact::may_be_of(own, name))
+    }
+
+    /// Whether a file of this name may be a table of an item of a paper: `P1_F4_curves.csv`.
+    fn is_value_table(name: &str) -> bool {
+        let stem = name.strip_suffix(".csv").unwrap_or_default();
+        !name.contains(['/', '\\']) && ["_curves", "_points", "_table"].iter().any(|end| stem.ends_with(end))
     }
 
     /// Whether a file of this name is a [table](Artifact::Table).

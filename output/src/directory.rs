@@ -73,7 +73,50 @@ impl Directory {
         force: bool,
         inputs: &[PathBuf],
     ) -> Result<Directory, OutputError> {
-        let path = path.as_ref().to_path_buf();
+        Directory::take(own, path.as_ref(), |path, taken| {
+            if !force {
+                refuse_contents(path)?;
+            }
+            refuse_inputs(path, taken, inputs)
+        })
+    }
+
+    /// [`Directory::create_for`] results that are renewed without being asked: those that the program wrote are taken without
+    /// `force`, and so is the folder called `beside`, where a caller keeps what is no result. With `force` other files are left alone.
+    ///
+    /// # Errors
+    /// [`OutputError::Unlisted`] where nothing says that the program wrote the results that are there, and those of
+    /// [`Directory::create_for`].
+    pub fn renew(
+        own: &'static [Artifact],
+        path: impl AsRef<Path>,
+        force: bool,
+        beside: &str,
+    ) -> Result<Directory, OutputError> {
+        Directory::take(own, path.as_ref(), |path, taken| {
+            let written = Written::read(path);
+            let closing = own.first().map_or(Cow::Borrowed(""), |artifact| artifact.file_name());
+            if taken.contains(&&*closing) && !written.holds(&closing) {
+                return Err(OutputError::Unlisted { path: path.to_path_buf(), file: closing.into_owned() });
+            }
+            let ours = |name: &str| {
+                name == NEW
+                    || name == LIST
+                    || (name == beside && path.join(name).is_dir())
+                    || written.of(&closing).any(|own| own == name)
+            };
+            if force { Ok(()) } else { refuse_others(path, ours) }
+        })
+    }
+
+    /// Makes and locks a directory of one kind of results, where `judge` does not refuse what is in it: the directory, and the names in it
+    /// that such results may have.
+    fn take(
+        own: &'static [Artifact],
+        path: &Path,
+        judge: impl FnOnce(&Path, &[&str]) -> Result<(), OutputError>,
+    ) -> Result<Directory, OutputError> {
+        let path = path.to_path_buf();
         if path.exists() && !path.is_dir() {
             return Err(OutputError::NotADirectory { path });
         }
@@ -81,13 +124,10 @@ impl Directory {
         fs::create_dir_all(&path).map_err(OutputError::io("make the directory", &path))?;
         let lock = lock(&path)?;
         staging::recover(&path).map_err(OutputError::io("finish the interrupted replacement in", &path))?;
-        if !force {
-            refuse_contents(&path)?;
-        }
         let there = staging::names(&path).map_err(OutputError::io("read the directory", &path))?;
         let taken: Vec<&str> =
             there.iter().map(String::as_str).filter(|name| Artifact::may_be_of(own, name)).collect();
-        refuse_inputs(&path, &taken, inputs)?;
+        judge(&path, &taken)?;
         refuse_foreign(&path, &taken)?;
         staging::clear(&path).and_then(|()| probe(&path)).map_err(OutputError::io("write to", &path))?;
         let replaces = own.iter().any(|artifact| path.join(&*artifact.file_name()).exists());
@@ -126,14 +166,26 @@ impl Directory {
         artifact: Artifact,
         fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
     ) -> Result<(), OutputError> {
+        self.write_named(&artifact.file_name(), fill)
+    }
+
+    /// Writes one file whose name is none of a fixed list, e.g. `P1_F4_curves.csv` of a report, as [`Directory::write`] does.
+    ///
+    /// # Errors
+    /// [`OutputError::Io`] with the system's reason.
+    pub fn write_named(
+        &self,
+        name: &str,
+        fill: impl FnOnce(&mut dyn Sink) -> io::Result<()>,
+    ) -> Result<(), OutputError> {
         if let Some(files) = &self.memory {
             let mut bytes = io::Cursor::new(Vec::new());
-            fill(&mut bytes).map_err(OutputError::io("write", &self.file(artifact)))?;
+            fill(&mut bytes).map_err(OutputError::io("write", &self.path.join(name)))?;
             let mut files = files.lock().unwrap_or_else(PoisonError::into_inner);
-            files.insert(artifact.file_name().into_owned(), bytes.into_inner());
+            files.insert(name.to_owned(), bytes.into_inner());
             return Ok(());
         }
-        let staged = self.path.join(NEW).join(&*artifact.file_name());
+        let staged = self.path.join(NEW).join(name);
         let attempt = || {
             // A directory that has gone is not made again: its owner removed it.
             fs::metadata(&self.path)?;
@@ -148,7 +200,7 @@ impl Directory {
         };
         attempt().map_err(|error| {
             let _ = fs::remove_file(&staged);
-            OutputError::io("write", &self.file(artifact))(error)
+            OutputError::io("write", &self.path.join(name))(error)
         })
     }
 
@@ -242,10 +294,15 @@ fn refuse_contents(path: &Path) -> Result<(), OutputError> {
     if Artifact::closing().any(|closing| path.join(&*closing.file_name()).exists()) {
         return Err(OutputError::HoldsResults { path: path.to_path_buf() });
     }
+    refuse_others(path, |name| name == NEW || name == LIST)
+}
+
+/// Refuses a directory that holds anything but what is `ours`.
+fn refuse_others(path: &Path, ours: impl Fn(&str) -> bool) -> Result<(), OutputError> {
     let entries = fs::read_dir(path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
     let entries = entries.map_err(OutputError::io("read the directory", path))?;
     let names = entries.into_iter().map(|entry| entry.file_name().to_string_lossy().into_owned());
-    match names.filter(|name| name != NEW && name != LIST).min() {
+    match names.filter(|name| !ours(name)).min() {
         Some(found) => Err(OutputError::NotEmpty { path: path.to_path_buf(), found }),
         None => Ok(()),
     }
@@ -289,6 +346,27 @@ fn probe(path: &Path) -> io::Result<()> {
 /// Number of files that this process has begun to write by [`write_file`].
 static WRITTEN: AtomicU64 = AtomicU64::new(0);
 
+/// Whether [`write_file`] could write a file: what is there is not touched.
+///
+/// # Errors
+/// [`OutputError::Io`] with the system's reason.
+pub fn try_file(path: &Path) -> Result<(), OutputError> {
+    if path.is_dir() {
+        return Err(OutputError::io("write", path)(io::ErrorKind::IsADirectory.into()));
+    }
+    let hidden = hidden_beside(path).map_err(OutputError::io("write", path))?;
+    let written = write_whole(&hidden, &[0; 4096]);
+    let removed = fs::remove_file(&hidden);
+    written.and(removed).map_err(OutputError::io("write", path))
+}
+
+/// A name beside a file that no other process and no other thread has.
+fn hidden_beside(path: &Path) -> io::Result<PathBuf> {
+    let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
+    let (process, number) = (std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed));
+    Ok(path.with_file_name(format!(".{}.{process}-{number}.flexion-new", name.to_string_lossy())))
+}
+
 fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(bytes)?;
@@ -301,12 +379,9 @@ fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// [`OutputError::Io`] with the system's reason.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
     let attempt = || {
-        let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
         path.parent().map_or(Ok(()), fs::create_dir_all)?;
         // Another process, or another thread, may write the same file at the same time.
-        let (process, number) = (std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed));
-        let hidden =
-            path.with_file_name(format!(".{}.{process}-{number}.flexion-new", name.to_string_lossy()));
+        let hidden = hidden_beside(path)?;
         let written = write_whole(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
         if written.is_err() {
             let _ = fs::remove_file(&hidden);
@@ -535,6 +610,48 @@ mod tests {
             assert_eq!(path.exists(), was_there);
             assert!(!was_there || fs::read_dir(&path).unwrap().next().is_none());
         }
+    }
+
+    /// Of a report only the files of a former one are replaced; all else is left alone, or refused.
+    #[test]
+    fn a_report_is_renewed_and_nothing_else_is() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path();
+        let put = |names: &[&str]| {
+            let out = Directory::renew(Artifact::REPORT, path, false, "kept").unwrap();
+            names.iter().for_each(|name| out.write_named(name, |f| f.write_all(b"new")).unwrap());
+            out.publish().unwrap();
+        };
+        fs::create_dir(path.join("kept")).unwrap();
+        put(&["claims.csv", "P1_F4_curves.csv", "report.html"]);
+        put(&["claims.csv", "P2_T1_table.csv", "report.html"]);
+        assert_eq!(names(path), ["P2_T1_table.csv", "claims.csv", "kept", "report.html"]);
+        let renew = |force| Directory::renew(Artifact::REPORT, path, force, "kept");
+        fs::write(path.join("notes.txt"), "mine").unwrap();
+        let e = renew(false).unwrap_err();
+        assert!(matches!(&e, OutputError::NotEmpty { found, .. } if found == "notes.txt"), "{e}");
+        drop(renew(true).unwrap());
+        // Another's file with the name of a table is not replaced, and a report that no list has is said to be one.
+        fs::write(path.join("P3_F1_curves.csv"), "mine").unwrap();
+        let e = renew(true).unwrap_err();
+        assert!(matches!(&e, OutputError::Foreign { path } if path.ends_with("P3_F1_curves.csv")), "{e}");
+        fs::remove_file(path.join(LIST)).unwrap();
+        for force in [false, true] {
+            let e = renew(force).unwrap_err();
+            assert!(matches!(&e, OutputError::Unlisted { file, .. } if file == "report.html"), "{e}");
+        }
+        assert_eq!(fs::read_to_string(path.join("P3_F1_curves.csv")).unwrap(), "mine");
+    }
+
+    #[test]
+    fn a_file_is_tried_without_a_trace() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("expected.toml");
+        try_file(&file).unwrap();
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        assert!(try_file(&folder.path().join("nowhere/expected.toml")).is_err());
+        fs::create_dir(&file).unwrap();
+        assert!(try_file(&file).is_err());
     }
 
     /// Several that write one file at the same time write it whole, each under a name of its own.

@@ -42,6 +42,18 @@ pub enum OutputError {
         /// The file.
         path: PathBuf,
     },
+    /// The directory holds a file that marks results as complete, and no list says that the program wrote it.
+    #[error(
+        "no list in {} says that this program wrote {file}: a version before kept none, or it is not its own; move it away with \
+         what belongs to it, or choose another output directory",
+        path.display()
+    )]
+    Unlisted {
+        /// The directory.
+        path: PathBuf,
+        /// Name of the file.
+        file: String,
+    },
     /// A file of the directory that the case is read from has the name of a result.
     #[error(
         "{} is read by the case, and the new results may have a file of that name: what a case reads is never replaced; choose \

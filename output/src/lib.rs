@@ -52,7 +52,7 @@ pub use self::columns::shown_columns;
 pub use self::compare::{Comparison, Difference, compare, compare_csv, compare_json};
 pub use self::contour::Contour;
 pub use self::csv::{read_csv, write_csv};
-pub use self::directory::{Directory, Sink, write_file};
+pub use self::directory::{Directory, Sink, try_file, write_file};
 pub use self::error::{OutputError, ResultsError};
 pub use self::estimate::{Errors, Rung};
 pub use self::events::write_events;

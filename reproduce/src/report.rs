@@ -11,8 +11,8 @@ use crate::shown::{plain, shown};
 use crate::table::filled;
 use crate::term::{Answers, Missing};
 use crate::verdict::{Verdict, judged};
-use flexion_results::{OutputError, VERSION, write_file};
-use std::path::{Path, PathBuf};
+use flexion_results::{Artifact, Directory, OutputError, VERSION};
+use std::path::PathBuf;
 
 /// Rows beyond which a table scrolls, and columns beyond which it lies across on paper.
 const LONG: usize = 16;
@@ -90,19 +90,18 @@ impl Counts {
     }
 }
 
-/// Writes `report.html` and the tables, and returns the files.
+/// Writes `report.html` and the tables into a directory of [`Artifact::REPORT`], whole or not at all, and returns the files.
 ///
 /// # Errors
 /// [`OutputError`]
-pub fn write(papers: &[Reproduced<'_>], folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
+pub fn write(papers: &[Reproduced<'_>], directory: &Directory) -> Result<Vec<PathBuf>, OutputError> {
     let mut files = Vec::new();
     let mut put = |name: &str, bytes: &[u8]| {
-        let path = folder.join(name);
-        write_file(&path, bytes)?;
-        files.push(path);
+        directory.write_named(name, |file| file.write_all(bytes))?;
+        files.push(directory.path().join(name));
         Ok::<(), OutputError>(())
     };
-    put("claims.csv", claims_table(papers).as_bytes())?;
+    put(&Artifact::Claims.file_name(), claims_table(papers).as_bytes())?;
     for paper in papers {
         for (id, item, answers) in paper.each() {
             for (name, text) in tables(item, &answers) {
@@ -110,7 +109,8 @@ pub fn write(papers: &[Reproduced<'_>], folder: &Path) -> Result<Vec<PathBuf>, O
             }
         }
     }
-    put("report.html", page(papers).as_bytes())?;
+    put(&Artifact::Report.file_name(), page(papers).as_bytes())?;
+    directory.publish()?;
     Ok(files)
 }
 

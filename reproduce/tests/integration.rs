@@ -6,6 +6,7 @@ use flexion_reproduce::{
     Answer, Described, Options, Reproduced, Stopped, built_in, built_in_names, check, compute, expected,
     from_folder, of_paper, sound, write,
 };
+use flexion_results::{Artifact, Directory};
 use std::path::Path;
 
 /// The numbered items of the five papers.
@@ -256,6 +257,7 @@ fn the_page_is_the_same_twice_and_holds_no_foreign_mark() {
             .collect();
         let to = folder.path().join(format!("report{threads}"));
         let reproduced = Reproduced { paper: &paper, answers: &answers, items: vec!["F1".to_owned()] };
+        let to = Directory::renew(Artifact::REPORT, to, false, "kept").unwrap();
         let files = write(&[reproduced], &to).unwrap();
         files.iter().map(|file| std::fs::read_to_string(file).unwrap()).collect::<Vec<_>>()
     };
@@ -598,7 +600,8 @@ fn claims_of_ours_are_counted_apart() {
     let reproduced = Reproduced { paper: &paper, answers: &answers, items: vec!["F1".to_owned()] };
     let counts = reproduced.counts();
     assert_eq!((counts.results, counts.paper, counts.ours), (1, [1, 0, 0, 1, 0], [1, 0, 0, 0, 0]));
-    let files = write(&[reproduced], folder.path()).unwrap();
+    let to = Directory::renew(Artifact::REPORT, folder.path().join("report"), false, "kept").unwrap();
+    let files = write(&[reproduced], &to).unwrap();
     let report = std::fs::read_to_string(files.last().unwrap()).unwrap();
     assert!(report.contains("Ours, beside the paper:") && report.matches("data-whose=ours").count() == 2);
     // The five papers say of no claim of theirs that it is ours in words alone.
