@@ -405,6 +405,7 @@ fn lock(path: &Path) -> Result<Option<File>, OutputError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::written::unsealed;
 
     /// What is in a folder but the list of what the program wrote.
     fn names(path: &Path) -> Vec<String> {
@@ -418,12 +419,12 @@ mod tests {
     fn former() -> tempfile::TempDir {
         let dir = tempfile::tempdir().unwrap();
         fs::create_dir(dir.path().join("vtk")).unwrap();
-        let mut names = std::collections::BTreeSet::new();
+        let mut names = Vec::new();
         for a in Artifact::RUN.iter().copied().chain((0..3).map(Artifact::Shape)) {
             fs::write(dir.path().join(&*a.file_name()), "old").unwrap();
-            names.insert(a.file_name().into_owned());
+            names.push(a.file_name());
         }
-        Written::default().with("summary.json", names).write(dir.path()).unwrap();
+        Written::default().with("summary.json", unsealed(names)).write(dir.path()).unwrap();
         fs::write(dir.path().join("notes.txt"), "mine").unwrap();
         dir
     }
@@ -479,8 +480,8 @@ mod tests {
                 // Whatever the list says of the other files.
                 let names =
                     Written::read(dir.path()).of("summary.json").map(str::to_owned).collect::<Vec<_>>();
-                let others = names.into_iter().filter(|other| other != name).collect();
-                Written::default().with("summary.json", others).write(dir.path()).unwrap();
+                let others = names.into_iter().filter(|other| other != name);
+                Written::default().with("summary.json", unsealed(others)).write(dir.path()).unwrap();
                 fs::write(dir.path().join(name), "mine").unwrap();
                 let before = names_within(dir.path());
                 let e = Directory::create(dir.path(), true).unwrap_err();

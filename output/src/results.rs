@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use super::artifact::Artifact;
 use super::csv::read_csv;
 use super::staging::current;
+use super::written::{LIST, Written};
 use super::{ResultsError, Trajectory};
 use crate::nearest::nearest;
 use flexion::system::{Kind, Role};
@@ -35,6 +36,9 @@ impl Results {
             return Err(ResultsError::Missing { path: path.to_path_buf() });
         }
         let unreadable = |reason: String| ResultsError::Unreadable { path: file.clone(), reason };
+        if path.is_dir() {
+            refuse_changed(path)?;
+        }
         let opened = File::open(&file).map_err(|error| unreadable(error.to_string()))?;
         let mut trajectory = read_csv(BufReader::new(opened)).map_err(unreadable)?;
         if path.is_dir() {
@@ -75,6 +79,25 @@ impl Results {
         }
         Ok(all)
     }
+}
+
+/// What is read of a run.
+const READ: [Artifact; 4] =
+    [Artifact::TrajectoryCsv, Artifact::Summary, Artifact::Events, Artifact::ResolvedCase];
+
+/// Refuses results of which a file is not as it was written.
+fn refuse_changed(folder: &Path) -> Result<(), ResultsError> {
+    let written = Written::read(folder);
+    for artifact in READ {
+        let name = artifact.file_name();
+        if let Some(defect) = written.defect(folder, &name) {
+            let reason = format!(
+                "{defect}; run the case again, or remove {LIST} from the folder to read the files as they are"
+            );
+            return Err(ResultsError::Unreadable { path: folder.join(&*name), reason });
+        }
+    }
+    Ok(())
 }
 
 /// Takes what the columns are from the summary of the run.
@@ -177,6 +200,40 @@ mod tests {
         assert!(error.contains("did you mean `tip.deflection`?") && error.contains("hub.speed"), "{error}");
         assert!(chosen(&["nose.*"]).unwrap_err().contains("no column of the runs is called `nose.*`"));
         assert!(chosen(&["tip.***"]).unwrap_err().contains("no pattern"));
+    }
+
+    #[test]
+    fn results_are_read_as_they_were_written_or_not_at_all() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("run");
+        let out = crate::Directory::create(&path, false).unwrap();
+        out.write(Artifact::TrajectoryCsv, |f| write_csv(&sample(), f)).unwrap();
+        out.write(Artifact::Summary, |f| f.write_all(br#"{"status":"finished"}"#)).unwrap();
+        out.write(Artifact::Events, |f| f.write_all(b"time [s]\n")).unwrap();
+        out.publish().unwrap();
+        drop(out);
+        Results::read(&path).unwrap();
+        for name in ["trajectory.csv", "summary.json", "events.csv"] {
+            let file = path.join(name);
+            let whole = std::fs::read(&file).unwrap();
+            let refused = |bytes: Option<&[u8]>| {
+                match bytes {
+                    Some(bytes) => std::fs::write(&file, bytes).unwrap(),
+                    None => std::fs::remove_file(&file).unwrap(),
+                }
+                Results::read(&path).unwrap_err().to_string()
+            };
+            let mut flipped = whole.clone();
+            *flipped.last_mut().unwrap() ^= 1;
+            let error = refused(Some(&flipped));
+            assert!(error.contains(name) && error.contains("not those that were written"), "{error}");
+            refused(Some(&whole[..whole.len() - 1]));
+            refused(None);
+            std::fs::write(&file, &whole).unwrap();
+        }
+        std::fs::write(path.join("summary.json"), r#"{"status":"failed"}"#).unwrap();
+        std::fs::remove_file(path.join(LIST)).unwrap();
+        assert!(Results::read(&path).unwrap().caution.is_some());
     }
 
     #[test]

@@ -5,13 +5,12 @@
 //! removed, the folder is renamed to [`MOVING`], and its files are moved to their names, the closing file last.
 //! The name of the folder thus says what remains to be done, and [`recover`] does it.
 
-use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use super::artifact::{Artifact, SHAPES};
-use super::written::{LIST, Written};
+use super::written::{LIST, Written, hash};
 
 /// Files being written.
 pub(super) const NEW: &str = ".flexion-new";
@@ -38,8 +37,10 @@ pub(super) fn place(path: &Path, closing: &str) -> io::Result<()> {
 
 /// Lists the new files among those that the folder then holds of the program.
 fn list(path: &Path, closing: &str) -> io::Result<()> {
-    let names = names(&path.join(NEW))?.into_iter().filter(|name| name != LIST).collect::<BTreeSet<_>>();
-    Written::read(path).with(closing, names).write(&path.join(NEW))
+    let new = path.join(NEW);
+    let names = names(&new)?.into_iter().filter(|name| name != LIST);
+    let sealed = names.map(|name| hash(&new.join(&name)).map(|hash| (name, hash)));
+    Written::read(path).with(closing, sealed.collect::<io::Result<_>>()?).write(&new)
 }
 
 /// Finishes what was interrupted, if anything was.
@@ -122,6 +123,7 @@ pub(super) fn names(folder: &Path) -> io::Result<Vec<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::written::unsealed;
 
     const FILES: [&str; 4] = ["vtk/frame_00000.vtu", "trajectory.csv", "case.resolved.toml", "summary.json"];
     /// What only the former results have, in the order of removal after their summary.
@@ -140,9 +142,8 @@ mod tests {
         write(path, "notes.txt", "mine");
         write(path, "plot.png", "mine");
         let former = ["summary.json"].iter().chain(&STALE).chain(&FILES[..3]);
-        let list = |names: &mut dyn Iterator<Item = &&str>| {
-            Written::default().with("summary.json", names.map(|name| (*name).to_owned()).collect())
-        };
+        let list =
+            |names: &mut dyn Iterator<Item = &&str>| Written::default().with("summary.json", unsealed(names));
         list(&mut former.clone()).write(path).unwrap();
         for (i, name) in former.enumerate() {
             if i >= removed {

@@ -1,10 +1,13 @@
 //! What the program wrote into a folder of results: only these files may a later run replace or remove.
 //!
-//! A hidden file lists them by the closing file of their results, for one folder may hold results of several kinds.
+//! A hidden file lists them by the closing file of their results, for one folder may hold results of several kinds, each with the SHA-256 of its
+//! bytes: who reads results knows by it that they are those that were written.
 
-use std::collections::{BTreeMap, BTreeSet};
+use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::artifact::Artifact;
@@ -12,33 +15,49 @@ use super::artifact::Artifact;
 /// The list.
 pub(super) const LIST: &str = ".flexion-files";
 
-/// Files that the program wrote: closing file and names, with `/` between folder and file.
+/// Names, with `/` between folder and file, and hashes of the files.
+pub(super) type Sealed = BTreeMap<String, String>;
+
+/// Files that the program wrote, by the closing file of their results.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Written(BTreeMap<String, BTreeSet<String>>);
+pub(super) struct Written(BTreeMap<String, Sealed>);
 
 impl Written {
     /// What the list in `folder` says; nothing where there is none. Names that no result has are left out, so that no list leads
     /// out of its folder.
     pub fn read(folder: &Path) -> Written {
         let text = fs::read_to_string(folder.join(LIST)).unwrap_or_default();
-        let mut all: BTreeMap<String, BTreeSet<String>> = serde_json::from_str(&text).unwrap_or_default();
-        all.values_mut().for_each(|names| names.retain(|name| Artifact::is_name(name)));
+        let mut all: BTreeMap<String, Sealed> = serde_json::from_str(&text).unwrap_or_default();
+        all.values_mut().for_each(|names| names.retain(|name, _| Artifact::is_name(name)));
         Written(all)
     }
 
     /// Whether one of its results has the file.
     pub fn holds(&self, name: &str) -> bool {
-        self.0.values().any(|names| names.contains(name))
+        self.0.values().any(|names| names.contains_key(name))
     }
 
     /// The files of the results with this closing file.
     pub fn of(&self, closing: &str) -> impl Iterator<Item = &str> {
-        self.0.get(closing).into_iter().flatten().map(String::as_str)
+        self.0.get(closing).into_iter().flatten().map(|(name, _)| name.as_str())
+    }
+
+    /// Why a file of results in `folder` is not the one that was written, if the list holds it: it is not there, or other bytes are.
+    pub fn defect(&self, folder: &Path, name: &str) -> Option<String> {
+        let written = self.0.values().find_map(|names| names.get(name))?;
+        match hash(&folder.join(name)) {
+            Ok(found) if found == *written => None,
+            Ok(_) => Some(
+                "its bytes are not those that were written: it is torn, changed or of other results"
+                    .to_owned(),
+            ),
+            Err(error) => Some(format!("it was written, and cannot be read: {error}")),
+        }
     }
 
     /// The list when the results with this closing file consist of `names`.
-    pub fn with(mut self, closing: &str, names: BTreeSet<String>) -> Written {
-        self.0.values_mut().for_each(|of| of.retain(|name| !names.contains(name)));
+    pub fn with(mut self, closing: &str, names: Sealed) -> Written {
+        self.0.values_mut().for_each(|of| of.retain(|name, _| !names.contains_key(name)));
         self.0.insert(closing.to_owned(), names);
         self.0.retain(|_, names| !names.is_empty());
         self
@@ -53,12 +72,34 @@ impl Written {
     }
 }
 
+/// The hash of a file.
+pub(super) fn hash(file: &Path) -> io::Result<String> {
+    let (mut file, mut digest, mut part) = (fs::File::open(file)?, Sha256::new(), vec![0; 1 << 16]);
+    loop {
+        match file.read(&mut part)? {
+            0 => break,
+            read => digest.update(&part[..read]),
+        }
+    }
+    let mut out = String::new();
+    for byte in digest.finalize() {
+        let _ = write!(out, "{byte:02x}");
+    }
+    Ok(out)
+}
+
+/// Files whose bytes nobody looks at.
+#[cfg(test)]
+pub(super) fn unsealed<T: ToString>(names: impl IntoIterator<Item = T>) -> Sealed {
+    names.into_iter().map(|name| (name.to_string(), String::new())).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn set(names: &[&str]) -> BTreeSet<String> {
-        names.iter().map(|name| (*name).to_owned()).collect()
+    fn set(names: &[&str]) -> Sealed {
+        unsealed(names.iter().copied())
     }
 
     #[test]
@@ -77,8 +118,7 @@ mod tests {
     #[test]
     fn no_list_leads_out_of_its_folder() {
         let folder = tempfile::tempdir().unwrap();
-        let text =
-            r#"{ "summary.json": ["../case.toml", "/etc/hosts", "vtk/../../x", "notes.txt", "plot.svg"] }"#;
+        let text = r#"{ "summary.json": { "../case.toml": "", "/etc/hosts": "", "vtk/../../x": "", "notes.txt": "", "plot.svg": "" } }"#;
         fs::write(folder.path().join(LIST), text).unwrap();
         assert_eq!(Written::read(folder.path()).of("summary.json").collect::<Vec<_>>(), ["plot.svg"]);
         fs::write(folder.path().join(LIST), "no list").unwrap();
