@@ -50,6 +50,20 @@ impl Place {
     }
 }
 
+/// The bytes at which the lines of a source begin.
+fn line_starts(source: &Source) -> Vec<usize> {
+    let ends = source.text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
+    std::iter::once(0).chain(ends.map(|(at, _)| at + 1)).collect()
+}
+
+/// Line and column (in characters) of a place, both from 1.
+fn position(source: &Source, starts: &[usize], place: &Place) -> Option<(usize, usize)> {
+    let (at, _) = clamp(&source.text, place);
+    let line = starts.partition_point(|start| *start <= at);
+    let before = source.text.get(*starts.get(line.checked_sub(1)?)?..at)?;
+    Some((line, before.chars().count() + 1))
+}
+
 /// One thing that is wrong with a case.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Problem {
@@ -107,6 +121,12 @@ impl Problems {
         self.list.first().map_or_else(String::new, |problem| problem.message.clone())
     }
 
+    /// What the [keys](crate::Reading::missing_for_run) that a run alone needs, and that are missing, mean for a case of modes.
+    pub fn without_run(&self) -> String {
+        let keys: Vec<String> = self.list.iter().map(|problem| format!("`{}`", problem.key)).collect();
+        format!("not without {}, which modes do not need", keys.join(" and "))
+    }
+
     /// Puts the problems into the order of their places; those without a place come last.
     pub(super) fn sort(&mut self) {
         self.list.sort_by_key(|p| (p.place.is_none(), p.place.clone()));
@@ -116,10 +136,17 @@ impl Problems {
     pub fn line_and_column(&self, problem: &Problem) -> Option<(usize, usize)> {
         let place = problem.place.as_ref()?;
         let source = self.sources.get(place.source)?;
-        let (start, _) = clamp(&source.text, place);
-        let before = source.text.get(..start)?;
-        let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-        Some((before.matches('\n').count() + 1, before.get(line_start..)?.chars().count() + 1))
+        position(source, &line_starts(source), place)
+    }
+
+    /// The same of all problems, in their order.
+    pub fn lines_and_columns(&self) -> Vec<Option<(usize, usize)>> {
+        let starts: Vec<Vec<usize>> = self.sources.iter().map(line_starts).collect();
+        let of = |problem: &Problem| {
+            let place = problem.place.as_ref()?;
+            position(self.sources.get(place.source)?, starts.get(place.source)?, place)
+        };
+        self.list.iter().map(of).collect()
     }
 
     /// The report, with terminal colours if `colour`.

@@ -59,13 +59,14 @@ fn unknown<'k>(
     problems: &mut Problems,
 ) -> Vec<&'k str> {
     let mut suspected = Vec::new();
+    let all = keys.iter().map(|key| key.name);
+    let free: Vec<&str> = all.clone().filter(|key| !entries.iter().any(|e| e.key == *key)).collect();
     for entry in entries {
         let name = entry.key.as_str();
         if keys.iter().any(|key| key.name == name) || (of.is_some() && name == "kind") {
             continue;
         }
-        let all = keys.iter().map(|key| key.name);
-        let free = all.clone().filter(|key| !entries.iter().any(|e| e.key == *key));
+        let (all, free) = (all.clone(), free.iter().copied());
         let mut problem = Problem::new(join(path, name), Some(entry.place.clone()), "unknown key");
         let synonym = suggestion::synonym(name, all.clone());
         if let Some(name) = synonym.or_else(|| nearest(name, free)).or_else(|| nearest(name, all)) {

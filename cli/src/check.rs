@@ -83,8 +83,7 @@ fn describe(reading: &Reading) -> Result<String, Problems> {
         }
     }
     if let Some(missing) = &incomplete {
-        let keys: Vec<String> = missing.list.iter().map(|problem| format!("`{}`", problem.key)).collect();
-        rows.push(row("run", format!("not without {}, which modes do not need", keys.join(" and "))));
+        rows.push(row("run", missing.without_run()));
     }
     let of_run = if incomplete.is_none() { case.unused_by_run() } else { case.cautions.clone() };
     let cautions = of_run.into_iter().chain(system.cautions(&[]));

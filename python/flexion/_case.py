@@ -120,7 +120,7 @@ class Case:
     def check(self) -> tuple[str, ...]:
         """Builds all that a run needs, and returns what a reader of its results should know.
 
-        Raises :class:`flexion.CaseError` where it cannot be run.
+        Raises :class:`flexion.CaseError` where it cannot be built. What a run alone needs may be missing, as in a case of modes: that is said.
         """
         return tuple(self._case.check())
 
@@ -174,19 +174,19 @@ class Case:
             warn(run.warnings)
         raise RunError(why, run) from by_law
 
-    def modes(self, speed: float = 0.0, count: int = 10, *, free_hub: bool = False, unit: str = "rad/s") -> Modes:
-        """The modes of small vibrations about the equilibrium in steady rotation at a speed [rad/s].
+    def modes(self, speed: float | str = 0.0, count: int = 10, *, free_hub: bool = False, unit: str = "rad/s") -> Modes:
+        """The modes of small vibrations about the equilibrium in steady rotation at a speed [rad/s], or ``"12 rpm"``.
 
         The hub keeps its speed, or rotates with the beam where it is free. ``unit`` is that of texts and figures: ``"rad/s"``, ``"Hz"``, or ``"rpm"`` of speeds
         with Hz of frequencies.
         """
-        modes = Modes(self._case.modes(float(speed), _count(count), free_hub, unit))
+        modes = Modes(self._case.modes(_speed(speed), _count(count), free_hub, unit))
         warn(modes.warnings)
         return modes
 
     def campbell(
         self,
-        speeds: Sequence[float] | npt.NDArray[np.floating[Any]],
+        speeds: Sequence[float | str] | npt.NDArray[np.floating[Any]],
         count: int = 6,
         *,
         free_hub: bool = False,
@@ -197,7 +197,7 @@ class Case:
         progress: bool | None = None,
         stop: Stop = None,
     ) -> Diagram:
-        """The modes over speeds of rotation [rad/s], which ascend from at least zero.
+        """The modes over speeds of rotation [rad/s], or texts with units, ``["0 rpm", "6 rpm"]``, which ascend from at least zero.
 
         Resonances are speeds at which a frequency is within ``margin`` percent of kΩ, k = 1 … ``revolutions``. ``threads`` is 0 for
         one a processor; the results do not depend on it.
@@ -207,7 +207,7 @@ class Case:
         if not 0.0 <= margin < 100.0:
             raise ValueError(f"`margin` is {margin} % and must be from 0 to less than 100")
         bar = Progress(progress, stop)
-        listed = [float(speed) for speed in speeds]
+        listed = [_speed(speed) for speed in speeds]
         try:
             core, raised = self._case.campbell(
                 listed, _count(count), free_hub, revolutions, margin, threads, unit, bar
@@ -260,7 +260,7 @@ class Case:
 
     def linearize(
         self,
-        speed: float = 0.0,
+        speed: float | str = 0.0,
         *,
         inputs: Mapping[str, Mapping[str, Any] | None] | None = None,
         outputs: Sequence[str] = (),
@@ -274,7 +274,7 @@ class Case:
         if isinstance(outputs, str):
             raise TypeError(f"`outputs` is a list of columns: write [{outputs!r}]")
         given = dict(inputs or {})
-        found = self._case.linearize(float(speed), free_hub, list(given.items()), list(outputs))
+        found = self._case.linearize(_speed(speed), free_hub, list(given.items()), list(outputs))
         names, (m, d, g, k, b, j, z), (p, v, a), units, at, warnings = found
         warn(warnings)
         return Linear(
@@ -326,6 +326,10 @@ def _count(count: int) -> int:
     if not 1 <= count <= 1000:
         raise ValueError(f"the number of modes is {count} and must be from 1 to 1000")
     return count
+
+
+def _speed(given: float | str) -> float:
+    return _core.speed(given) if isinstance(given, str) else float(given)
 
 
 def _raise(raised: BaseException | None, result: Any) -> None:

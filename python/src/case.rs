@@ -133,7 +133,13 @@ impl Case {
     /// Builds all that a run needs, and returns what its reader should know.
     fn check(&self, py: Python<'_>) -> PyResult<Vec<String>> {
         let reading = Arc::clone(&self.reading);
-        let checked = move || reading.prepare().map(|prepared| prepared.warnings().to_vec());
+        let checked = move || {
+            let missing = reading.missing_for_run().err();
+            let Some(missing) = missing.filter(|_| reading.build().is_ok()) else {
+                return reading.prepare().map(|prepared| prepared.warnings().to_vec());
+            };
+            Ok(vec![format!("a run: {}", missing.without_run())])
+        };
         let prepared = interruptible(py, checked)?;
         prepared.map_err(|problems| faults::problems(py, &problems))
     }
@@ -162,8 +168,9 @@ impl Case {
         let (laws, held) = law::laws(laws)?;
         let reading = guarded(py, || self.reading.with_laws(laws))?;
         let reading = Arc::new(reading.map_err(|problems| faults::problems(py, &problems))?);
-        let (run, raised) = Run::of(py, &reading, &request, Watch::new(notify))
-            .map_err(|error| held.raised().unwrap_or(error))?;
+        let watch = Watch::new(notify).with_end(held.ends());
+        let (run, raised) =
+            Run::of(py, &reading, &request, watch).map_err(|error| held.raised().unwrap_or(error))?;
         Ok((run, raised, held.raised()))
     }
 

@@ -15,8 +15,7 @@ fn raise<'py>(py: Python<'py>, maker: &str, arguments: impl PyCallArgs<'py>) -> 
 
 /// Everything that is wrong with a case.
 pub fn problems(py: Python<'_>, problems: &Problems) -> PyErr {
-    let each = problems.list.iter().map(|problem| {
-        let place = problems.line_and_column(problem);
+    let each = problems.list.iter().zip(problems.lines_and_columns()).map(|(problem, place)| {
         let source = problem.place.as_ref().and_then(|place| problems.sources.get(place.source));
         let source = source.or(problems.sources.first()).map_or("", |source| source.name.as_str());
         let (line, column) = (place.map(|place| place.0), place.map(|place| place.1));

@@ -4,13 +4,20 @@ use super::value;
 use super::watch::ending;
 use flexion::command::{Command, LawState, Timing};
 use flexion_case::{Law, Start};
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyException, PyTypeError};
 use pyo3::prelude::*;
 use pyo3::types::{PyFloat, PyMapping, PyTuple};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 
-/// What a law has raised.
-type Raised = Arc<Mutex<Option<PyErr>>>;
+/// What a law has raised first, and whether that ends all runs of the case: Ctrl-C, and whatever is no error.
+#[derive(Debug, Default)]
+struct First {
+    error: Mutex<Option<PyErr>>,
+    ends: Arc<AtomicBool>,
+}
+
+type Raised = Arc<First>;
 
 /// Name, load, columns that are read, states with their starts and sizes, period or none, times of breaks, what makes the function of a run.
 pub type Given<'py> = (
@@ -33,7 +40,12 @@ pub struct Held {
 impl Held {
     /// What a law has raised first.
     pub fn raised(&self) -> Option<PyErr> {
-        self.raised.lock().ok().and_then(|mut raised| raised.take())
+        self.raised.error.lock().ok().and_then(|mut raised| raised.take())
+    }
+
+    /// Whether a law has ended all runs of the case.
+    pub fn ends(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.raised.ends)
     }
 }
 
@@ -72,7 +84,10 @@ struct Maker {
 /// Keeps the first exception, and says what it is.
 fn keep(raised: &Raised, error: PyErr) -> String {
     let said = format!("raised {error}");
-    if let Ok(mut raised) = raised.lock() {
+    if !Python::attach(|py| error.is_instance_of::<PyException>(py)) {
+        raised.ends.store(true, Ordering::Relaxed);
+    }
+    if let Ok(mut raised) = raised.error.lock() {
         raised.get_or_insert(error);
     }
     said
@@ -80,6 +95,9 @@ fn keep(raised: &Raised, error: PyErr) -> String {
 
 impl Start for Maker {
     fn start(&self) -> Result<Box<dyn Command>, String> {
+        if self.raised.ends.load(Ordering::Relaxed) {
+            return Err("is not asked any more".to_owned());
+        }
         let function = Python::attach(|py| {
             let make = self.make.lock().ok().and_then(|make| make.as_ref().map(|make| make.clone_ref(py)));
             make.ok_or_else(|| "belongs to a run that has ended".to_owned())

@@ -36,7 +36,7 @@ mod _core {
     #[pymodule_export]
     use super::watch::{end, forked};
     #[pymodule_export]
-    use super::{program, schema, version, view};
+    use super::{program, schema, speed, version, view};
 }
 
 /// Version of the engine.
@@ -49,6 +49,13 @@ fn version() -> &'static str {
 #[pyfunction]
 fn schema() -> String {
     flexion_case::schema()
+}
+
+/// A speed of rotation [rad/s] as it is written, with a unit or without.
+#[pyfunction]
+fn speed(text: &str) -> PyResult<f64> {
+    let read = flexion_case::Speed::read(text).map_err(pyo3::exceptions::PyValueError::new_err)?;
+    Ok(read.in_radians(&flexion_results::Frequencies::RADIANS))
 }
 
 /// The page that plays the motion or the modes in a folder of results.

@@ -7,6 +7,7 @@ use std::any::Any;
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
@@ -126,18 +127,26 @@ pub struct Watch {
     notify: Option<Py<PyAny>>,
     last: Instant,
     stopped: bool,
+    /// Set by a law that ends all runs of its case.
+    ended: Option<Arc<AtomicBool>>,
     /// What a call has raised, or Ctrl-C.
     raised: Option<PyErr>,
 }
 
 impl Watch {
     pub fn new(notify: Option<Py<PyAny>>) -> Watch {
-        Watch { notify, last: Instant::now(), stopped: false, raised: None }
+        Watch { notify, last: Instant::now(), stopped: false, ended: None, raised: None }
+    }
+
+    /// Stops too when `ended` is set.
+    pub fn with_end(self, ended: Arc<AtomicBool>) -> Watch {
+        Watch { ended: Some(ended), ..self }
     }
 
     /// Goes on, or stops.
     pub fn show(&mut self, part: f64, text: impl FnOnce() -> String) -> ControlFlow<()> {
-        if self.stopped || ending() {
+        let by_law = self.ended.as_ref().is_some_and(|ended| ended.load(Ordering::Relaxed));
+        if self.stopped || by_law || ending() {
             return ControlFlow::Break(());
         }
         if self.last.elapsed() < INTERVAL {

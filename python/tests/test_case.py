@@ -151,5 +151,11 @@ def test_a_key_with_an_equals_sign_changes_nothing_else(arm: flexion.Case) -> No
 
 def test_check_says_what_a_reader_should_know(arm: flexion.Case) -> None:
     assert arm.check() == ()
-    with pytest.raises(flexion.CaseError, match="duration"):
-        flexion.Case({k: v for k, v in ARM.items() if k != "run"}).check()
+    # As the program: modes need no duration.
+    assert flexion.Case({k: v for k, v in ARM.items() if k != "run"}).check() == ("a run: not without `run.duration`, which modes do not need",)
+
+
+def test_many_unknown_keys_are_refused_with_their_lines() -> None:
+    with pytest.raises(flexion.CaseError) as refused:
+        flexion.Case({f"k{i}": i for i in range(30_000)})
+    assert [problem.line for problem in refused.value.problems[:30_000]] == list(range(1, 30_001))

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pickle
+import signal
 import subprocess
 import sys
 import threading
@@ -596,9 +597,9 @@ def test_a_run_that_ends_at_its_start_is_kept_and_says_why_it_holds_nothing(free
 
 @pytest.mark.parametrize("number", [1 + 0j, np.complex64(1), np.complex128(1 + 5j), np.clongdouble(1)])
 def test_a_complex_number_is_no_torque(free: flexion.Case, number: Any) -> None:
-    with pytest.raises(TypeError, match="complex"):
+    with pytest.raises(flexion.RunError, match="must be real number, not complex"):
         free.run(laws={"hub.torque": flexion.law(lambda t, state: number)})
-    with pytest.raises(TypeError, match="complex"):
+    with pytest.raises(flexion.RunError, match="must be real number, not complex"):
         free.run(laws={"hub.torque": flexion.law(lambda t, state: (number, {"x": 0.0}), states={"x": 0.0})})
 
 
@@ -623,3 +624,26 @@ def test_a_controller_that_keeps_its_run_or_its_error_is_freed(free: flexion.Cas
     del controller
     gc.collect()
     assert [controller() for controller in controllers] == [None, None, None]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+def test_ctrl_c_in_a_run_for_the_errors_ends_all_of_them(free: flexion.Case) -> None:
+    asked: list[int] = []
+
+    class Controller:
+        def __init__(self) -> None:
+            asked.append(0)
+            self.number = len(asked)
+
+        def __call__(self, t: float, state: State) -> float:
+            if self.number == 2 and t > 0.05:
+                os.kill(os.getpid(), signal.SIGINT)
+                time.sleep(1)
+            if self.number > 1:
+                asked[self.number - 1] += 1
+            return 1.0
+
+    with pytest.raises(flexion.Interrupted) as interrupted:
+        free.with_("run.duration", 0.5).run(errors="full", laws={"hub.torque": flexion.sampled(0.01, Controller)})
+    assert interrupted.value.result.end_time == pytest.approx(0.5)
+    assert sum(asked[2:]) == 0

@@ -137,3 +137,10 @@ def test_advice_that_cannot_be_given_says_why(arm: flexion.Case) -> None:
         arm.advise("1 furlong", "tip.deflection")
     with pytest.raises(flexion.CaseError, match="duration"):
         flexion.Case({k: v for k, v in ARM.items() if k != "run"}).advise(1e-2)
+
+
+def test_speeds_may_have_units(arm: flexion.Case) -> None:
+    assert arm.modes("30 rpm", 2).frequencies == pytest.approx(arm.modes(math.pi, 2).frequencies, rel=1e-12)
+    assert arm.campbell(["0 rpm", "30 rpm"], 2).speeds == pytest.approx([0, math.pi], rel=1e-12)
+    with pytest.raises(ValueError, match="no speed"):
+        arm.modes("30 m")
