@@ -164,7 +164,7 @@ class Case:
         why = run.message or "the run failed" if run.status == "failed" else None
         if by_law is not None:
             why = why or f"a law raised {by_law!r} in a run that estimates the errors"
-        elif core.refused is not None and run.status != "stopped":
+        elif core.refused is not None and not bar.stopped:
             why = why or core.refused
         if why is None:
             warn(run.warnings)

@@ -23,7 +23,8 @@ class Progress:
 
     def __init__(self, show: bool | None, stop: Event | Callable[[], bool] | None) -> None:
         self._asked = stop
-        self._stopped = False
+        self.stopped = False
+        """Whether it has been asked to stop."""
         self._began = time.monotonic()
         self._drawn = False
         self._handle: Any = None
@@ -35,9 +36,9 @@ class Progress:
         """Whether the computation is to stop."""
         if self._show and time.monotonic() - self._began > _FIRST:
             self._draw(min(max(part, 0.0), 1.0), text)
-        if self._asked is not None and not self._stopped:
-            self._stopped = self._asked.is_set() if hasattr(self._asked, "is_set") else bool(self._asked())
-        return self._stopped
+        if self._asked is not None and not self.stopped:
+            self.stopped = self._asked.is_set() if hasattr(self._asked, "is_set") else bool(self._asked())
+        return self.stopped
 
     def _draw(self, part: float, text: str) -> None:
         done = round(part * _WIDTH)

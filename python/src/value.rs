@@ -42,7 +42,12 @@ pub fn value(given: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Val
         return Ok(Value::Integer(number));
     }
     if given.is_instance_of::<PyFloat>() {
-        return number(given.extract()?, path);
+        let x = given.extract()?;
+        // A value of a result has its unit.
+        let unit = if given.is_exact_instance_of::<PyFloat>() { None } else { given.getattr("unit").ok() };
+        let unit = unit.and_then(|unit| unit.extract::<String>().ok()).filter(|unit| !unit.is_empty());
+        let plain = number(x, path)?;
+        return Ok(unit.map_or(plain, |unit| Value::String(format!("{x:e} {unit}"))));
     }
     if let Ok(mapping) = given.cast::<PyDict>() {
         return Ok(Value::Table(table(mapping.as_mapping(), path, depth)?));

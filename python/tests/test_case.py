@@ -159,3 +159,11 @@ def test_many_unknown_keys_are_refused_with_their_lines() -> None:
     with pytest.raises(flexion.CaseError) as refused:
         flexion.Case({f"k{i}": i for i in range(30_000)})
     assert [problem.line for problem in refused.value.problems[:30_000]] == list(range(1, 30_001))
+
+
+def test_a_value_of_a_result_keeps_its_unit(arm: flexion.Case) -> None:
+    assert arm.with_("beam.length", flexion.Value(8.0, unit="m")) == arm.with_("beam.length", "8 m")
+    with pytest.raises(flexion.CaseError, match="`s`"):
+        arm.with_("beam.length", flexion.Value(8.0, unit="s"))
+    least = arm.run(errors="off")["tip.deflection"].min
+    assert arm.with_("beam.length", abs(least)) == arm.with_("beam.length", abs(float(least)))
