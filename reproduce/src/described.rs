@@ -247,6 +247,8 @@ pub enum Rule {
     Less {
         left: Term,
         right: Term,
+        /// A factor of `left`.
+        times: Option<f64>,
     },
     Within {
         of: Term,
@@ -275,6 +277,9 @@ pub enum Rule {
         runs: Vec<String>,
     },
     All {
+        rules: Vec<Rule>,
+    },
+    Any {
         rules: Vec<Rule>,
     },
     Lost {

@@ -111,7 +111,7 @@ fn of_times(quantity: &str, compared: Option<As>) -> Option<String> {
 fn constant(rule: &Rule) -> Option<String> {
     match rule {
         Rule::Lost { .. } => None,
-        Rule::All { rules } => rules.iter().find_map(constant),
+        Rule::All { rules } | Rule::Any { rules } => rules.iter().find_map(constant),
         _ => {
             let mut runs = named_by(rule).len();
             of_rule(rule, &mut |_| runs += 1);

@@ -235,7 +235,7 @@ pub fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
         }
     };
     match rule {
-        Rule::Less { left, right } => {
+        Rule::Less { left, right, .. } => {
             term(left);
             term(right);
         }
@@ -244,7 +244,7 @@ pub fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
             crate::rule::terms(rule).iter().for_each(see);
         }
         Rule::EndsEarly { .. } | Rule::Finishes { .. } | Rule::Lost { .. } => {}
-        Rule::All { rules } => rules.iter().for_each(|rule| of_rule(rule, see)),
+        Rule::All { rules } | Rule::Any { rules } => rules.iter().for_each(|rule| of_rule(rule, see)),
     }
 }
 
@@ -252,7 +252,7 @@ pub fn of_rule(rule: &Rule, see: &mut dyn FnMut(&OfRun)) {
 pub fn named_by(rule: &Rule) -> Vec<&String> {
     match rule {
         Rule::EndsEarly { runs } | Rule::Finishes { runs } => runs.iter().collect(),
-        Rule::All { rules } => rules.iter().flat_map(named_by).collect(),
+        Rule::All { rules } | Rule::Any { rules } => rules.iter().flat_map(named_by).collect(),
         _ => Vec::new(),
     }
 }
@@ -327,11 +327,16 @@ fn empty(rule: &Rule) -> Option<String> {
         Rule::EndsEarly { runs } | Rule::Finishes { runs } if runs.is_empty() => {
             Some("its rule needs a run".to_owned())
         }
-        Rule::All { rules } if rules.is_empty() => Some("`all` needs a rule".to_owned()),
-        Rule::All { rules } => rules.iter().find_map(empty),
+        Rule::All { rules } | Rule::Any { rules } if rules.is_empty() => {
+            Some("`all` and `any` need a rule".to_owned())
+        }
+        Rule::All { rules } | Rule::Any { rules } => rules.iter().find_map(empty),
         Rule::Within { low, high, .. } if !(low <= high) => Some(format!("{low} to {high} is no interval")),
         Rule::Agree { within, .. } if !(*within > 0.0) => Some(format!("nothing agrees within {within}")),
-        Rule::Less { left, right } => {
+        Rule::Less { times: Some(times), .. } if !(*times > 0.0 && times.is_finite()) => {
+            Some(format!("`times` is {times}: a positive factor is asked"))
+        }
+        Rule::Less { left, right, .. } => {
             let nan =
                 [left, right].into_iter().any(|term| matches!(term, Term::Number(number) if number.is_nan()));
             nan.then(|| "NaN is compared with nothing".to_owned())
@@ -347,11 +352,13 @@ pub fn placeholders(rule: &Rule) -> Vec<String> {
         Rule::Within { .. } => &["of", "low", "high"],
         Rule::Agree { .. } | Rule::Grows { .. } | Rule::Falls { .. } => &["least", "most", "first", "last"],
         Rule::EndsEarly { .. } | Rule::Finishes { .. } | Rule::Lost { .. } => &[],
-        Rule::All { rules } => {
+        Rule::All { rules } | Rule::Any { rules } => {
             let each = rules.iter().enumerate().flat_map(|(i, rule)| {
-                placeholders(rule)
-                    .into_iter()
-                    .flat_map(move |word| [word.clone(), format!("{word}{}", i + 1)])
+                placeholders(rule).into_iter().flat_map(move |word| {
+                    let numbered = format!("{word}{}", i + 1);
+                    let plain = !word.ends_with(|c: char| c.is_ascii_digit());
+                    plain.then_some(word).into_iter().chain([numbered])
+                })
             });
             let mut all: Vec<String> = each.collect();
             all.sort();

@@ -60,11 +60,13 @@ pub fn ruled(rule: &Rule, answers: &Answers<'_>) -> (Ruled, Words) {
 fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled, Missing> {
     match rule {
         Rule::Lost { because } => Ok(Ruled::Lost(because.clone())),
-        Rule::Less { left, right } => {
+        Rule::Less { left, right, times } => {
             let (left_is, right_is) = (number(left, answers)?, number(right, answers)?);
             words.push(("{left}".to_owned(), said(left, &left_is)));
             words.push(("{right}".to_owned(), said(right, &right_is)));
-            Ok(less(&left_is, &right_is))
+            let times = times.unwrap_or(1.0);
+            let error = left_is.error.map(|error| times * error);
+            Ok(less(&Number { value: times * left_is.value, error, ..left_is }, &right_is))
         }
         Rule::Within { of, low, high } => {
             let value = number(of, answers)?;
@@ -110,30 +112,51 @@ fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled
             Ok(Ruled::Holds)
         }
         Rule::All { rules } => {
-            let mut each = Vec::new();
-            for (i, rule) in rules.iter().enumerate() {
-                let mut own = Words::new();
-                each.push(decide(rule, answers, &mut own));
-                // Another rule may decide where this one has no values.
-                for word in placeholders(rule).into_iter().map(|word| format!("{{{word}}}")) {
-                    if own.iter().all(|(known, _)| *known != word) {
-                        own.push((word, "an unknown value".to_owned()));
-                    }
-                }
-                for (name, value) in own {
-                    words.push((name.replace('}', &format!("{}}}", i + 1)), value.clone()));
-                    if words.iter().all(|(known, _)| *known != name) {
-                        words.push((name, value));
-                    }
-                }
-            }
+            let each = decide_each(rules, answers, words);
             // One that fails decides, whatever is missing of the others.
             if each.contains(&Ok(Ruled::Fails)) {
                 return Ok(Ruled::Fails);
             }
             Ok(both(each.into_iter().collect::<Result<Vec<_>, _>>()?))
         }
+        Rule::Any { rules } => {
+            let each = decide_each(rules, answers, words);
+            if each.contains(&Ok(Ruled::Holds)) {
+                return Ok(Ruled::Holds);
+            }
+            let each = each.into_iter().collect::<Result<Vec<_>, _>>()?;
+            Ok(each.into_iter().find(|ruled| *ruled != Ruled::Fails).unwrap_or(Ruled::Fails))
+        }
     }
+}
+
+/// What each of several rules gives, and their words, with the number of the rule and, of the first that has one, without.
+fn decide_each(rules: &[Rule], answers: &Answers<'_>, words: &mut Words) -> Vec<Result<Ruled, Missing>> {
+    let mut each = Vec::new();
+    for (i, rule) in rules.iter().enumerate() {
+        let mut own = Words::new();
+        each.push(decide(rule, answers, &mut own));
+        // Another rule may decide where this one has no values.
+        for word in placeholders(rule).into_iter().map(|word| format!("{{{word}}}")) {
+            if own.iter().all(|(known, _)| *known != word) {
+                own.push((word, "an unknown value".to_owned()));
+            }
+        }
+        for (name, value) in own {
+            // The word of a rule among those of this one has a number already.
+            let first = is_plain(&name) && words.iter().all(|(known, _)| *known != name);
+            words.push((name.replace('}', &format!("{}}}", i + 1)), value.clone()));
+            if first {
+                words.push((name, value));
+            }
+        }
+    }
+    each
+}
+
+/// Whether a word has no number: `{left}`.
+fn is_plain(word: &str) -> bool {
+    !word.trim_end_matches('}').ends_with(|c: char| c.is_ascii_digit())
 }
 
 fn numbers(rule: &Rule, answers: &Answers<'_>) -> Result<Vec<Number>, Missing> {
@@ -210,6 +233,65 @@ mod tests {
         assert_eq!(is_within(152.0, 0.0, 152.0, 153.0), Ruled::Holds);
         assert_eq!(is_within(153.5, 0.1, 152.0, 153.0), Ruled::Fails);
         assert!(matches!(is_within(153.0, 0.1, 152.0, 153.0), Ruled::Undecided(_)));
+    }
+
+    /// One value of 1 ± 0.2, and a run that has no value.
+    fn one_value(rule: &str) -> Ruled {
+        let valued =
+            crate::answer::Valued { value: 1.0, error: Some(0.2), unit: "m".to_owned(), varies: false };
+        let mut answer = Answer { status: "finished".to_owned(), ..Answer::default() };
+        answer.values.insert("x".to_owned(), Ok(valued));
+        let answers: Answers<'_> = [("one".to_owned(), (Some(&answer), None))].into_iter().collect();
+        ruled(&toml::from_str(rule).unwrap(), &answers).0
+    }
+
+    #[test]
+    fn a_factor_multiplies_a_value_and_its_error() {
+        let less = |times: f64, right: f64| {
+            one_value(&format!(
+                "kind = 'less'\nleft = {{ run = 'one', quantity = 'x' }}\nright = {right}\ntimes = {times}"
+            ))
+        };
+        // 10 ± 2 and 0.5 ± 0.1.
+        assert_eq!(less(10.0, 12.1), Ruled::Holds);
+        assert!(matches!(less(10.0, 11.9), Ruled::Undecided(_)));
+        assert_eq!(less(10.0, 7.9), Ruled::Fails);
+        assert_eq!(less(0.5, 0.61), Ruled::Holds);
+        assert!(matches!(less(0.5, 0.59), Ruled::Undecided(_)));
+    }
+
+    #[test]
+    fn one_of_several_is_enough_and_all_must_fail() {
+        let part = |run: &str, right: f64| {
+            format!("{{ kind = 'less', left = {{ run = '{run}', quantity = 'x' }}, right = {right} }}")
+        };
+        let any = |parts: [String; 2]| one_value(&format!("kind = 'any'\nrules = [{}]", parts.join(", ")));
+        let (holds, fails, open) = (part("one", 2.0), part("one", 0.5), part("one", 1.1));
+        let missing = part("two", 2.0);
+        assert_eq!(any([fails.clone(), holds.clone()]), Ruled::Holds);
+        assert_eq!(any([missing.clone(), holds]), Ruled::Holds);
+        assert_eq!(any([fails.clone(), fails.clone()]), Ruled::Fails);
+        assert!(matches!(any([open, fails.clone()]), Ruled::Undecided(_)));
+        assert!(matches!(any([fails, missing]), Ruled::Undecided(_)));
+    }
+
+    /// Rules within rules: {left2} is of the second rule, {left21} of the second within the first.
+    #[test]
+    fn a_word_is_of_the_rule_of_its_number() {
+        let part = |right: f64| format!("{{ kind = 'less', left = 0, right = {right} }}");
+        let inner = format!("{{ kind = 'any', rules = [{}, {}] }}", part(1.0), part(2.0));
+        let rule: Rule = toml::from_str(&format!("kind = 'all'\nrules = [{inner}, {}]", part(3.0))).unwrap();
+        let (_, words) = ruled(&rule, &Answers::new());
+        let of = |name: &str| words.iter().find(|(word, _)| word == name).unwrap().1.clone();
+        assert_eq!(
+            ["{right}", "{right1}", "{right2}", "{right11}", "{right21}"].map(of),
+            ["1", "1", "3", "1", "2"]
+        );
+        let mut named: Vec<String> = words.iter().map(|(word, _)| word.clone()).collect();
+        named.sort();
+        named.dedup();
+        let known = placeholders(&rule).into_iter().map(|word| format!("{{{word}}}"));
+        assert_eq!(known.collect::<std::collections::BTreeSet<_>>(), named.into_iter().collect());
     }
 
     #[test]

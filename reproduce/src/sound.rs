@@ -246,7 +246,7 @@ fn of_rule(rule: &Rule, unit: &dyn Fn(&str, &str) -> Option<String>, wrong: &mut
         }
     };
     match rule {
-        Rule::Less { left, right } => {
+        Rule::Less { left, right, .. } => {
             for term in [left, right] {
                 if let Term::Of(of) = term {
                     take(of);
@@ -261,7 +261,9 @@ fn of_rule(rule: &Rule, unit: &dyn Fn(&str, &str) -> Option<String>, wrong: &mut
         Rule::Agree { .. } | Rule::Grows { .. } | Rule::Falls { .. } => {
             crate::rule::terms(rule).iter().for_each(take);
         }
-        Rule::All { rules } => return rules.iter().for_each(|rule| of_rule(rule, unit, wrong)),
+        Rule::All { rules } | Rule::Any { rules } => {
+            return rules.iter().for_each(|rule| of_rule(rule, unit, wrong));
+        }
         Rule::EndsEarly { .. } | Rule::Finishes { .. } | Rule::Lost { .. } => {}
     }
     if let Some((first, of)) = all.first()

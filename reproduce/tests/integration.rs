@@ -125,6 +125,8 @@ fn each_kind_of_rule_is_flipped_by_a_changed_case() {
         "{ kind = 'ends-early', runs = ['breaks'] }".to_owned(),
         "{ kind = 'finishes', runs = ['few', 'many'] }".to_owned(),
         format!("{{ kind = 'all', rules = [{{ kind = 'finishes', runs = ['few'] }}, {{ kind = 'less', left = {}, right = -0.3 }}] }}", min("few")),
+        format!("{{ kind = 'less', left = {}, right = -3, times = 10 }}", min("many")),
+        format!("{{ kind = 'any', rules = [{{ kind = 'ends-early', runs = ['few'] }}, {{ kind = 'less', left = {}, right = -0.3 }}] }}", min("many")),
         "{ kind = 'lost', because = 'It is lost.' }".to_owned(),
     ];
     let claims: Vec<String> = rules
@@ -136,23 +138,29 @@ fn each_kind_of_rule_is_flipped_by_a_changed_case() {
     let found = verdicts(&paper_of(folder.path(), &text), "F1");
     assert_eq!(
         found,
-        ["holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "lost"]
+        [
+            "holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds", "holds",
+            "holds", "lost"
+        ]
     );
     let many = "set = ['run.duration=6 s', 'basis={kind=\"modes\",axial=4,transverse=4}']";
     let stiff = "set = ['run.duration=6 s', 'section.modulus=700 GPa', 'basis={kind=\"modes\",axial=4,transverse=4}']";
     let breaks = "'model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s'";
-    type Changed<'a> = (&'a [(&'a str, &'a str)], [&'a str; 10]);
+    type Changed<'a> = (&'a [(&'a str, &'a str)], [&'a str; 12]);
     let changes: [Changed<'_>; 2] = [
         (
             &[(many, stiff), (breaks, "'run.duration=7 s'")],
-            ["fails", "fails", "fails", "fails", "fails", "fails", "fails", "holds", "holds", "lost"],
+            [
+                "fails", "fails", "fails", "fails", "fails", "fails", "fails", "holds", "holds", "fails",
+                "fails", "lost",
+            ],
         ),
         (
             &[(
                 "'run.duration=6 s', 'basis={kind=\"modes\",axial=2",
                 "'model.coupling=\"zeroth\"', 'hub.motion.speed=20 rad/s', 'basis={kind=\"modes\",axial=2",
             )],
-            ["holds", "holds", "", "", "holds", "holds", "holds", "fails", "fails", "lost"],
+            ["holds", "holds", "", "", "holds", "holds", "holds", "fails", "fails", "holds", "holds", "lost"],
         ),
     ];
     for (changes, expected) in changes {
