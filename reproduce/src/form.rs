@@ -1,9 +1,11 @@
 //! What is wrong with the form of an item, whatever its runs give: times that are none, words that no rule fills, plots and tables of
 //! nothing, and rules that are decided before anything is computed.
 
-use crate::described::{As, Claim, Item, ItemKind, OfRun, Plot, Rule, Table, Template};
-use crate::need::{named_by, of_rule, placeholders};
+use crate::described::{As, Claim, Item, ItemKind, OfRun, Plot, Rule, Table, Template, Term};
+use crate::need::{Key, named_by, of_rule, placeholders, runs};
+use crate::rule::terms;
 use crate::term::window;
+use std::collections::BTreeMap;
 
 /// All that is wrong, each with its line.
 pub fn problems(file: &str, item: &Item) -> Vec<String> {
@@ -23,8 +25,9 @@ pub fn problems(file: &str, item: &Item) -> Vec<String> {
             out.extend(at(*line, of_times(&column.quantity, column.compared).into_iter().collect()));
         }
     }
+    let keys = runs(item).into_iter().map(|run| (run.name, run.key)).collect();
     for (claim, line) in item.claims.iter().zip(&lines.claims) {
-        out.extend(at(*line, of_claim(claim)));
+        out.extend(at(*line, of_claim(claim, &keys)));
     }
     out
 }
@@ -93,11 +96,12 @@ fn of_table(table: &Table) -> Vec<String> {
     runs.into_iter().chain(empty(table.columns.is_empty(), "`columns` is empty")).collect()
 }
 
-fn of_claim(claim: &Claim) -> Vec<String> {
+fn of_claim(claim: &Claim, keys: &BTreeMap<String, Key>) -> Vec<String> {
     let mut out = Vec::new();
     of_rule(&claim.rule, &mut |of: &OfRun| out.extend(of_times(&of.quantity, of.compared)));
     out.dedup();
     out.extend(constant(&claim.rule));
+    out.extend(with_itself(&claim.rule, keys));
     out.extend(unfilled(claim));
     out.into_iter().map(|problem| format!("{}: {problem}", claim.text)).collect()
 }
@@ -119,6 +123,39 @@ fn constant(rule: &Rule) -> Option<String> {
                 .then(|| "its rule has no quantity of a run, and says the same whatever comes out".to_owned())
         }
     }
+}
+
+/// A quantity of a run that a rule compares with itself, perhaps under another name.
+fn with_itself(rule: &Rule, keys: &BTreeMap<String, Key>) -> Option<String> {
+    let same = |a: &str, b: &str| a == b || keys.get(a).zip(keys.get(b)).is_some_and(|(a, b)| a == b);
+    let same_term = |a: &OfRun, b: &OfRun| {
+        let to = match (&a.to, &b.to) {
+            (Some(a), Some(b)) => same(a, b),
+            (a, b) => a == b,
+        };
+        to && a.compared == b.compared && a.quantity == b.quantity && same(&a.run, &b.run)
+    };
+    let said = |quantity: &str, a: &str, b: &str| {
+        let named = if a == b { String::new() } else { format!(", which is `{b}` too,") };
+        format!(
+            "its rule compares {quantity} of `{a}`{named} with itself: name another run or another quantity"
+        )
+    };
+    let mut found = None;
+    of_rule(rule, &mut |of: &OfRun| {
+        if let Some(to) = of.to.as_ref().filter(|to| same(&of.run, to)) {
+            found = found.take().or_else(|| Some(said(&of.quantity, &of.run, to)));
+        }
+    });
+    let pair = |a: &OfRun, b: &OfRun| same_term(a, b).then(|| said(&a.quantity, &a.run, &b.run));
+    found.or_else(|| match rule {
+        Rule::Less { left: Term::Of(left), right: Term::Of(right), .. } => pair(left, right),
+        Rule::Grows { .. } | Rule::Falls { .. } => {
+            terms(rule).windows(2).find_map(|two| pair(&two[0], &two[1]))
+        }
+        Rule::All { rules } | Rule::Any { rules } => rules.iter().find_map(|rule| with_itself(rule, keys)),
+        _ => None,
+    })
 }
 
 /// The words between braces of the sentences of a claim that its rule does not fill.

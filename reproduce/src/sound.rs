@@ -60,6 +60,8 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
         let file = format!("{}/{id}.toml", described.place);
         problems.extend(crate::form::problems(&file, item));
         problems.extend(of_units(&file, item, &unit));
+        let end = |run: &str| end(described, &needs[*numbers.get(&(id.clone(), run.to_owned()))?]);
+        problems.extend(of_times(&file, item, &end));
     }
     // What is wrong with a line is wrong with each run that is made of it.
     let mut seen = Vec::new();
@@ -215,6 +217,62 @@ fn of_units(file: &str, item: &Item, unit: &dyn Fn(&str, &str) -> Option<String>
         }
     }
     out
+}
+
+/// When a run ends by its case \[s\]; `None` where it is none in time, or its case is refused.
+fn end(described: &Described, need: &Need) -> Option<f64> {
+    let key = &need.run.key;
+    let text = described.cases.get(&key.case).filter(|_| key.asks == Asks::Run)?;
+    let file = format!("{}/cases/{}.toml", described.place, key.case);
+    let reading = parse_with(text.clone(), Path::new(&file), &key.set, &Contents::new()).ok()?;
+    Some(reading.case.duration)
+}
+
+/// The times of an item that lie behind the end of a run.
+fn of_times(file: &str, item: &Item, end: &dyn Fn(&str) -> Option<f64>) -> Vec<String> {
+    let mut ends: BTreeMap<String, Option<f64>> = BTreeMap::new();
+    let mut behind = |what: &str, run: &str, time: f64| {
+        let end = (*ends.entry(run.to_owned()).or_insert_with(|| end(run)))?;
+        (time > end * (1.0 + 1e-9)).then(|| {
+            format!("{what} asks for t = {time} s of `{run}`, which ends at {end} s: ask for times until then, or make `run.duration` longer")
+        })
+    };
+    let mut out = Vec::new();
+    let mut say = |line: usize, found: Option<String>| {
+        out.extend(found.map(|why| format!("{file}:{line}: {why}")));
+    };
+    for (claim, line) in item.claims.iter().zip(&item.lines.claims) {
+        crate::need::of_rule(&claim.rule, &mut |of: &OfRun| {
+            if let Some(time) = latest(&of.quantity) {
+                let mut runs = std::iter::once(&of.run).chain(&of.to);
+                say(*line, runs.find_map(|run| behind(&of.quantity, run, time)));
+            }
+        });
+    }
+    for (column, line) in item.table.iter().flat_map(|table| &table.columns).zip(&item.lines.columns) {
+        if let Some(time) = latest(&column.quantity) {
+            let mut runs = item.table.iter().flat_map(|table| crate::need::named(item, table.runs.as_ref()));
+            say(*line, runs.find_map(|run| behind(&column.quantity, &run, time)));
+        }
+    }
+    for (plot, line) in item.plots.iter().zip(&item.lines.plots) {
+        let (what, time) = match plot.x {
+            Some(_) => (plot.y.clone(), latest(&plot.y)),
+            None => (format!("`from` of the plot of {}", plot.y), plot.from),
+        };
+        if let Some(time) = time {
+            let mut runs = crate::need::named(item, plot.runs.as_ref()).into_iter();
+            say(*line, runs.find_map(|run| behind(&what, &run, time)));
+        }
+    }
+    out
+}
+
+/// The last time \[s\] to which a quantity or a column is restricted; what is no time is judged with its name.
+fn latest(quantity: &str) -> Option<f64> {
+    let (_, times) = quantity.split_once('@')?;
+    let times = times.split("..").filter_map(|time| time.trim().parse::<f64>().ok());
+    times.filter(|time| time.is_finite()).reduce(f64::max)
 }
 
 /// The unit of a term, where it is known; `None` for a number, which has any.

@@ -482,6 +482,37 @@ fn what_runs_cannot_be_is_rejected_at_its_line() {
             "kind = 'all'",
             "pure numbers",
         ),
+        (
+            claim(
+                "{ kind = 'less', left = { run = 'few', quantity = 'tip.deflection.amplitude@5..7' }, right = 1 }",
+            ),
+            "kind = 'less'",
+            "asks for t = 7 s of `few`, which ends at 6 s: ask for times until then, or make `run.duration` longer",
+        ),
+        (
+            claim(
+                "{ kind = 'any', rules = [{ kind = 'less', left = 1, right = { run = 'many', quantity = 'tip.deflection.at@6.01' } }] }",
+            ),
+            "kind = 'any'",
+            "t = 6.01 s of `many`",
+        ),
+        (
+            claim(
+                "{ kind = 'agree', runs = ['breaks', 'few'], quantity = 'tip.deflection@5..8', within = 0.01, curves = true }",
+            ),
+            "kind = 'agree'",
+            "t = 8 s of `few`",
+        ),
+        (
+            RUNS.replace("quantity = 'tip.deflection.min'", "quantity = 'tip.deflection.min@9..'"),
+            "min@9..",
+            "t = 9 s of `few`",
+        ),
+        (
+            RUNS.replace("y = 'tip.deflection'", "y = 'tip.deflection'\nfrom = 7"),
+            "y = 'tip.deflection'",
+            "`from` of the plot of tip.deflection asks for t = 7 s",
+        ),
     ];
     for (item, words, said) in cases {
         let message = found(&item);
@@ -514,6 +545,15 @@ fn items_that_say_nothing_are_rejected_at_their_line() {
     let plot = "y = 'tip.deflection'";
     let table = "[table]\ncolumns = [{ title = 'smallest', quantity = 'tip.deflection.min', unit = 'mm' }]\n";
     assert!(RUNS.contains(table));
+    let min = "{ run = 'few', quantity = 'tip.deflection.min'";
+    // A run under another name.
+    let few =
+        &RUNS[RUNS.find("[[run]]\nname = 'few'").unwrap()..RUNS.find("[[run]]\nname = 'many'").unwrap()];
+    let twice = format!(
+        "{}{}[[claim]]\ntext = 'T'\nrule = {{ kind = 'less', left = {min} }}, right = RIGHT }} }}\n",
+        RUNS,
+        few.replace("'few'", "'other'")
+    );
     let cases = [
         (curves("@0..0,75"), "rule =", "0,75"),
         (curves("@1"), "rule =", "@FROM..TO"),
@@ -528,6 +568,33 @@ fn items_that_say_nothing_are_rejected_at_their_line() {
             ),
             "rule =",
             "no quantity",
+        ),
+        (
+            claim(&format!("{{ kind = 'less', left = {min}, to = 'few', as = 'ratio' }}, right = 1 }}")),
+            "rule =",
+            "compares tip.deflection.min of `few` with itself: name another run",
+        ),
+        (
+            claim(&format!("{{ kind = 'less', left = {min} }}, right = {min} }}, times = 2 }}")),
+            "rule =",
+            "with itself",
+        ),
+        (
+            claim(
+                "{ kind = 'all', rules = [{ kind = 'agree', runs = ['few', 'many', 'few'], quantity = 'tip.deflection.min', within = 0.01 }] }",
+            ),
+            "rule =",
+            "with itself",
+        ),
+        (
+            claim("{ kind = 'grows', runs = ['few', 'few'], quantity = 'tip.deflection.min' }"),
+            "rule =",
+            "with itself",
+        ),
+        (
+            twice.replace("RIGHT", &min.replace("'few'", "'other'")),
+            "rule =",
+            "of `few`, which is `other` too, with itself",
         ),
         (RUNS.replace(plot, "y = 'tip.deflection'\nfrom = 3\nto = 2"), plot, "from 3 s to 2 s"),
         (RUNS.replace(plot, "y = 'tip.deflection'\nto = 'few'"), plot, "seconds"),
