@@ -100,6 +100,13 @@ pub(super) fn current(path: &Path, artifact: Artifact) -> PathBuf {
     hidden.into_iter().find(|file| file.is_file()).unwrap_or_else(|| path.join(&*name))
 }
 
+/// The list of the files that a reader should see.
+pub(super) fn written(path: &Path) -> Written {
+    let hidden = [COMPLETE, MOVING].map(|folder| path.join(folder));
+    let new = hidden.into_iter().find(|folder| folder.join(LIST).is_file());
+    Written::read(new.as_deref().unwrap_or(path))
+}
+
 /// The files in a folder and in that of the shapes in it, relative to it; none where there is no folder.
 pub(super) fn names(folder: &Path) -> io::Result<Vec<String>> {
     let mut found = Vec::new();

@@ -42,10 +42,10 @@ impl Written {
         self.0.get(closing).into_iter().flatten().map(|(name, _)| name.as_str())
     }
 
-    /// Why a file of results in `folder` is not the one that was written, if the list holds it: it is not there, or other bytes are.
-    pub fn defect(&self, folder: &Path, name: &str) -> Option<String> {
+    /// Why a file of results, which is here now, is not the one that was written, if the list has its name: it is not there, or other bytes are.
+    pub fn defect(&self, name: &str, file: &Path) -> Option<String> {
         let written = self.0.values().find_map(|names| names.get(name))?;
-        match hash(&folder.join(name)) {
+        match hash(file) {
             Ok(found) if found == *written => None,
             Ok(_) => Some(
                 "its bytes are not those that were written: it is torn, changed or of other results"
