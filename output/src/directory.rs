@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::{self, BufWriter, Write as _};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::OutputError;
@@ -13,6 +12,8 @@ use super::OutputError;
 use super::archive;
 use super::arrays::Arrays;
 use super::artifact::Artifact;
+use super::file::write_whole;
+use super::refusal::{refuse_contents, refuse_foreign, refuse_inputs, refuse_others};
 use super::staging::{self, NEW};
 use super::written::{LIST, Written};
 
@@ -289,106 +290,12 @@ impl Directory {
     }
 }
 
-/// Refuses a directory that holds results or anything else but what an interrupted run had begun to write.
-fn refuse_contents(path: &Path) -> Result<(), OutputError> {
-    if Artifact::closing().any(|closing| path.join(&*closing.file_name()).exists()) {
-        return Err(OutputError::HoldsResults { path: path.to_path_buf() });
-    }
-    refuse_others(path, |name| name == NEW || name == LIST)
-}
-
-/// Refuses a directory that holds anything but what is `ours`.
-fn refuse_others(path: &Path, ours: impl Fn(&str) -> bool) -> Result<(), OutputError> {
-    let entries = fs::read_dir(path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
-    let entries = entries.map_err(OutputError::io("read the directory", path))?;
-    let names = entries.into_iter().map(|entry| entry.file_name().to_string_lossy().into_owned());
-    match names.filter(|name| !ours(name)).min() {
-        Some(found) => Err(OutputError::NotEmpty { path: path.to_path_buf(), found }),
-        None => Ok(()),
-    }
-}
-
-/// Refuses `names` of which no former run wrote the file.
-fn refuse_foreign(path: &Path, names: &[&str]) -> Result<(), OutputError> {
-    let written = Written::read(path);
-    match names.iter().find(|name| !written.holds(name)) {
-        Some(name) => Err(OutputError::Foreign { path: path.join(name) }),
-        None => Ok(()),
-    }
-}
-
-/// Refuses `names` that are files of `inputs`, by the path that was given or by where it leads.
-fn refuse_inputs(path: &Path, names: &[&str], inputs: &[PathBuf]) -> Result<(), OutputError> {
-    let named = |file: &Path| {
-        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Some(folder.canonicalize().ok()?.join(file.file_name()?))
-    };
-    let read: Vec<PathBuf> =
-        inputs.iter().flat_map(|file| [named(file), file.canonicalize().ok()]).flatten().collect();
-    match names
-        .iter()
-        .map(|name| path.join(name))
-        .find(|file| named(file).is_some_and(|file| read.contains(&file)))
-    {
-        Some(path) => Err(OutputError::Input { path }),
-        None => Ok(()),
-    }
-}
-
 /// Writes and removes a small file: permissions, read-only and full disks show only so.
 fn probe(path: &Path) -> io::Result<()> {
     let folder = path.join(NEW);
     fs::create_dir(&folder)?;
     let written = write_whole(&folder.join("probe"), &[0; 4096]);
     written.and(staging::clear(path))
-}
-
-/// Number of files that this process has begun to write by [`write_file`].
-static WRITTEN: AtomicU64 = AtomicU64::new(0);
-
-/// Whether [`write_file`] could write a file: what is there is not touched.
-///
-/// # Errors
-/// [`OutputError::Io`] with the system's reason.
-pub fn try_file(path: &Path) -> Result<(), OutputError> {
-    if path.is_dir() {
-        return Err(OutputError::io("write", path)(io::ErrorKind::IsADirectory.into()));
-    }
-    let hidden = hidden_beside(path).map_err(OutputError::io("write", path))?;
-    let written = write_whole(&hidden, &[0; 4096]);
-    let removed = fs::remove_file(&hidden);
-    written.and(removed).map_err(OutputError::io("write", path))
-}
-
-/// A name beside a file that no other process and no other thread has.
-fn hidden_beside(path: &Path) -> io::Result<PathBuf> {
-    let Some(name) = path.file_name() else { return Err(io::ErrorKind::InvalidFilename.into()) };
-    let (process, number) = (std::process::id(), WRITTEN.fetch_add(1, Ordering::Relaxed));
-    Ok(path.with_file_name(format!(".{}.{process}-{number}.flexion-new", name.to_string_lossy())))
-}
-
-fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(bytes)?;
-    file.sync_all()
-}
-
-/// Writes a single file whole or not at all, replacing what is there: under a hidden name beside it first.
-///
-/// # Errors
-/// [`OutputError::Io`] with the system's reason.
-pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    let attempt = || {
-        path.parent().map_or(Ok(()), fs::create_dir_all)?;
-        // Another process, or another thread, may write the same file at the same time.
-        let hidden = hidden_beside(path)?;
-        let written = write_whole(&hidden, bytes).and_then(|()| fs::rename(&hidden, path));
-        if written.is_err() {
-            let _ = fs::remove_file(&hidden);
-        }
-        written
-    };
-    attempt().map_err(OutputError::io("write", path))
 }
 
 /// Takes the lock of the directory; a file system without locks gives none.
@@ -642,36 +549,5 @@ mod tests {
             assert!(matches!(&e, OutputError::Unlisted { file, .. } if file == "report.html"), "{e}");
         }
         assert_eq!(fs::read_to_string(path.join("P3_F1_curves.csv")).unwrap(), "mine");
-    }
-
-    #[test]
-    fn a_file_is_tried_without_a_trace() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("expected.toml");
-        try_file(&file).unwrap();
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
-        assert!(try_file(&folder.path().join("nowhere/expected.toml")).is_err());
-        fs::create_dir(&file).unwrap();
-        assert!(try_file(&file).is_err());
-    }
-
-    /// Several that write one file at the same time write it whole, each under a name of its own.
-    #[test]
-    fn a_file_that_is_written_by_many_is_that_of_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("report.html");
-        std::thread::scope(|scope| {
-            for letter in b'a'..b'i' {
-                let file = &file;
-                scope.spawn(move || {
-                    for _ in 0..8 {
-                        write_file(file, &vec![letter; 100_000]).unwrap();
-                    }
-                });
-            }
-        });
-        let whole = fs::read(&file).unwrap();
-        assert!(whole.len() == 100_000 && whole.iter().all(|letter| *letter == whole[0]));
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
     }
 }
