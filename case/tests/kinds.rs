@@ -71,7 +71,8 @@ fn written(folder: &Path) -> Vec<(String, Vec<u8>)> {
             all.extend(
                 written(&entry.path()).into_iter().map(|(file, bytes)| (format!("{name}/{file}"), bytes)),
             );
-        } else if name != Artifact::Summary.file_name() {
+        } else if name != Artifact::Summary.file_name() && name != ".flexion-files" {
+            // The list has the hash of the summary.
             all.push((name, fs::read(entry.path()).unwrap()));
         }
     }
