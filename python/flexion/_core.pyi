@@ -29,6 +29,7 @@ __all__ = [
     "program",
     "runs_figure",
     "schema",
+    "speed",
     "version",
     "view",
 ]
