@@ -18,6 +18,14 @@ pub(super) const LIST: &str = ".flexion-files";
 /// Names, with `/` between folder and file, and hashes of the files.
 pub(super) type Sealed = BTreeMap<String, String>;
 
+/// What a list has of some results: the first ones had names alone.
+#[derive(serde::Deserialize)]
+#[serde(untagged)]
+enum Listed {
+    Sealed(Sealed),
+    Names(Vec<String>),
+}
+
 /// Files that the program wrote, by the closing file of their results.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Written(BTreeMap<String, Sealed>);
@@ -27,7 +35,13 @@ impl Written {
     /// out of its folder.
     pub fn read(folder: &Path) -> Written {
         let text = fs::read_to_string(folder.join(LIST)).unwrap_or_default();
-        let mut all: BTreeMap<String, Sealed> = serde_json::from_str(&text).unwrap_or_default();
+        let all: BTreeMap<String, Listed> = serde_json::from_str(&text).unwrap_or_default();
+        let sealed = |listed| match listed {
+            Listed::Sealed(names) => names,
+            Listed::Names(names) => names.into_iter().map(|name| (name, String::new())).collect(),
+        };
+        let mut all: BTreeMap<String, Sealed> =
+            all.into_iter().map(|(closing, listed)| (closing, sealed(listed))).collect();
         all.values_mut().for_each(|names| names.retain(|name, _| Artifact::is_name(name)));
         Written(all)
     }
@@ -44,7 +58,7 @@ impl Written {
 
     /// Why a file of results, which is here now, is not the one that was written, if the list has its name: it is not there, or other bytes are.
     pub fn defect(&self, name: &str, file: &Path) -> Option<String> {
-        let written = self.0.values().find_map(|names| names.get(name))?;
+        let written = self.0.values().find_map(|names| names.get(name)).filter(|hash| !hash.is_empty())?;
         match hash(file) {
             Ok(found) if found == *written => None,
             Ok(_) => Some(
@@ -130,6 +144,15 @@ mod tests {
         };
         assert_eq!(hash_of("2", "0.1"), hash_of("2", "0.25"));
         assert_ne!(hash_of("2", "0.1"), hash_of("3", "0.1"));
+    }
+
+    #[test]
+    fn a_list_of_names_alone_is_a_list() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(LIST), r#"{ "summary.json": ["plot.svg", "summary.json"] }"#).unwrap();
+        let read = Written::read(folder.path());
+        assert_eq!(read.of("summary.json").collect::<Vec<_>>(), ["plot.svg", "summary.json"]);
+        assert_eq!(read.defect("plot.svg", &folder.path().join("plot.svg")), None);
     }
 
     #[test]
