@@ -24,6 +24,13 @@ ARM: dict[str, Any] = {
     "run": {"duration": 20},
 }
 
+FREE: dict[str, Any] = {
+    **{key: ARM[key] for key in ("beam", "section")},
+    "hub": {"inertia": 50, "motion": {"kind": "free"}},
+    "model": {"coupling": "exact"},
+    "run": {"duration": 4},
+}
+
 
 @pytest.fixture(autouse=True)
 def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -34,6 +41,11 @@ def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture
 def arm() -> flexion.Case:
     return flexion.Case(ARM)
+
+
+@pytest.fixture
+def free() -> flexion.Case:
+    return flexion.Case(FREE)
 
 
 @pytest.fixture(scope="session")

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import gc
 import json
 import math
-import os
 import pickle
-import signal
-import subprocess
-import sys
 import threading
 import time
-import weakref
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -20,15 +14,8 @@ from typing import Any
 import flexion
 import numpy as np
 import pytest
-from conftest import ARM
+from conftest import ARM, FREE
 from flexion._law import State
-
-FREE: dict[str, Any] = {
-    **{key: ARM[key] for key in ("beam", "section")},
-    "hub": {"inertia": 50, "motion": {"kind": "free"}},
-    "model": {"coupling": "exact"},
-    "run": {"duration": 4},
-}
 
 PD = {"proportional": 300, "derivative": 600, "target": 1.0}
 READS = ["hub.angle", "hub.speed"]
@@ -36,11 +23,6 @@ READS = ["hub.angle", "hub.speed"]
 
 def pd(t: float, state: State) -> float:
     return 300 * (1.0 - state["hub.angle"]) - 600 * state["hub.speed"]
-
-
-@pytest.fixture
-def free() -> flexion.Case:
-    return flexion.Case(FREE)
 
 
 def apart(a: flexion.Run, b: flexion.Run, name: str) -> float:
@@ -458,74 +440,6 @@ def test_stop_ends_a_run_with_a_law(free: flexion.Case) -> None:
     assert endless.run(errors="off", laws={"hub.torque": slow}, stop=stop).status == "stopped"
 
 
-def test_nothing_of_a_law_is_left_behind(free: flexion.Case) -> None:
-    short = free.with_("run.duration", 0.2)
-    kept: list[weakref.ref[Any]] = []
-
-    class Controller:
-        def __call__(self, t: float, state: State) -> float:
-            if len(kept) > 4 and t > 0.1:
-                raise Mine("late")
-            return 1.0
-
-    def make() -> Controller:
-        controller = Controller()
-        kept.append(weakref.ref(controller))
-        return controller
-
-    short.run(laws={"hub.torque": flexion.sampled(0.01, make)})
-    try:
-        short.run(laws={"hub.torque": flexion.sampled(0.01, make)})
-        short.run(laws={"hub.torque": flexion.sampled(0.01, make)})
-    except flexion.RunError:
-        pass
-    gc.collect()
-    assert len(kept) >= 3 and all(controller() is None for controller in kept)
-
-
-HANGS = """
-import flexion, os, signal, sys, threading, time
-case = flexion.Case(sys.argv[1]) | {"hub": {"inertia": 5, "motion": {"kind": "free"}}}
-def hangs(t, state):
-    while t > 1.0:
-        pass
-    return 1.0
-threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
-try:
-    case.run(errors="off", progress=False, laws={"hub.torque": hangs})
-except flexion.Interrupted as error:
-    print("interrupted", error.result.end_time <= 1.1, flush=True)
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-def test_ctrl_c_ends_a_law_that_never_returns(verification: Path) -> None:
-    words = [sys.executable, "-c", HANGS, str(verification / "p1_spin_up_4")]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=60)
-    assert (done.returncode, done.stdout.strip()) == (0, "interrupted True"), done.stderr
-
-
-FORKS = """
-import os, sys, flexion
-case = flexion.Case(sys.argv[1]) | {"hub": {"inertia": 5, "motion": {"kind": "free"}}, "run.duration": 1}
-laws = {"hub.torque": flexion.law(lambda t, s: 1.0 - s["hub.angle"], ["hub.angle"])}
-before = case.run(errors="off", laws=laws)["hub.angle"].max
-child = os.fork()
-if child == 0:
-    same = case.run(errors="off", laws=laws)["hub.angle"].max == before
-    rows = flexion.sweep(case, {"section.modulus": [6e10, 7e10]}, "hub.angle.max", errors="none")
-    os._exit(0 if same and len(rows.to_pandas()) == 2 else 1)
-print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), case.run(errors="off", laws=laws)["hub.angle"].max == before)
-"""
-
-
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork")
-def test_a_process_may_fork_after_the_import(verification: Path) -> None:
-    words = [sys.executable, "-c", FORKS, str(verification / "p1_spin_up_4")]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=120)
-    assert (done.returncode, done.stdout.strip()) == (0, "0 True"), done.stderr
-
-
 def test_a_law_is_pickled_where_its_function_can_be() -> None:
     of = flexion.Law(make=dict, reads=("hub.angle",), period=0.1)
     assert pickle.loads(pickle.dumps(of)) == of
@@ -547,28 +461,6 @@ def test_a_law_that_computes_its_own_case_ends_somewhere(free: flexion.Case) -> 
     while cause is not None and not isinstance(cause, RecursionError):
         cause = cause.__cause__
     assert cause is not None and deep == 4
-
-
-SLEEPS = """
-import sys, threading, time, flexion
-case = flexion.Case(sys.argv[1]) | {"hub": {"inertia": 5, "motion": {"kind": "free"}}, "run.duration": 1}
-asked = threading.Event()
-def torque(t, state):
-    asked.set()
-    time.sleep(0.3)
-    return 1.0
-def compute():
-    case.run(errors="off", laws={"hub.torque": torque})
-threading.Thread(target=compute, daemon=True).start()
-asked.wait()
-print("ends")
-"""
-
-
-def test_python_may_end_while_a_law_sleeps_in_another_thread(verification: Path) -> None:
-    words = [sys.executable, "-c", SLEEPS, str(verification / "p1_spin_up_4")]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=60)
-    assert (done.returncode, done.stdout.strip()) == (0, "ends"), done.stderr
 
 
 def test_names_of_laws_stand_in_names_of_columns(arm: flexion.Case) -> None:
@@ -601,49 +493,3 @@ def test_a_complex_number_is_no_torque(free: flexion.Case, number: Any) -> None:
         free.run(laws={"hub.torque": flexion.law(lambda t, state: number)})
     with pytest.raises(flexion.RunError, match="must be real number, not complex"):
         free.run(laws={"hub.torque": flexion.law(lambda t, state: (number, {"x": 0.0}), states={"x": 0.0})})
-
-
-def test_a_controller_that_keeps_its_run_or_its_error_is_freed(free: flexion.Case) -> None:
-    class Controller:
-        kept: Any = None
-
-        def torque(self, t: float, state: State) -> float:
-            return 1.0
-
-        def failing(self, t: float, state: State) -> float:
-            raise ValueError
-
-    short, controllers = free.with_("run.duration", 0.1), []
-    for law in (lambda of: of.torque, lambda of: flexion.sampled(0.01, lambda: of.torque), lambda of: of.failing):
-        controller = Controller()
-        try:
-            controller.kept = short.run(errors="off", laws={"hub.torque": law(controller)})
-        except flexion.RunError as error:
-            controller.kept = error
-        controllers.append(weakref.ref(controller))
-    del controller
-    gc.collect()
-    assert [controller() for controller in controllers] == [None, None, None]
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-def test_ctrl_c_in_a_run_for_the_errors_ends_all_of_them(free: flexion.Case) -> None:
-    asked: list[int] = []
-
-    class Controller:
-        def __init__(self) -> None:
-            asked.append(0)
-            self.number = len(asked)
-
-        def __call__(self, t: float, state: State) -> float:
-            if self.number == 2 and t > 0.05:
-                os.kill(os.getpid(), signal.SIGINT)
-                time.sleep(1)
-            if self.number > 1:
-                asked[self.number - 1] += 1
-            return 1.0
-
-    with pytest.raises(flexion.Interrupted) as interrupted:
-        free.with_("run.duration", 0.5).run(errors="full", laws={"hub.torque": flexion.sampled(0.01, Controller)})
-    assert interrupted.value.result.end_time == pytest.approx(0.5)
-    assert sum(asked[2:]) == 0
