@@ -80,7 +80,7 @@ pub use self::state_file::read_state;
 #[cfg(feature = "archives")]
 pub use self::state_file::write_state;
 pub use self::statics::{put_statics, statics_json, write_statics};
-pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION};
+pub use self::summary::{Integration, ProblemSize, RunReport, Status, Summary, VERSION, outcome};
 pub use self::vibration::{campbell_json, modes_json, put_campbell, put_modes, write_campbell, write_modes};
 pub use self::view::{view_modes, view_run};
 pub use self::vtk::{write_pvd, write_vtp, write_vtu};

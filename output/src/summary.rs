@@ -109,20 +109,9 @@ impl Summary {
         summary
     }
 
-    /// The summary of a transient run. A run that claims to have finished and recorded a value that is
-    /// not finite is summarised as failed, with the channel and the time in the message.
+    /// The summary of a transient run, with its [`outcome`].
     pub fn of_run(report: &RunReport<'_>, trajectory: &Trajectory) -> Summary {
-        let mut status = report.status;
-        let mut message = report.message.map(String::from);
-        if status == Status::Finished
-            && let Some((channel, t)) = trajectory.first_not_finite()
-        {
-            status = Status::Failed;
-            message = Some(format!(
-                "{} is not a finite number from t = {t} s on; try a smaller step or a tighter tolerance",
-                channel.name
-            ));
-        }
+        let (status, message) = outcome(report.status, report.message, trajectory);
         let mut s = Summary::new(status, message.as_deref(), report.title, report.file);
         s.insert("duration", report.duration);
         s.insert("end_time", report.end_time);
@@ -193,6 +182,18 @@ impl Summary {
     pub fn to_json(&self) -> String {
         format!("{:#}\n", Value::Object(self.entries.clone()))
     }
+}
+
+/// Status and message of a run: one that claims to have finished and recorded a value that is not finite has failed, with the channel
+/// and the time in the message.
+pub fn outcome(status: Status, message: Option<&str>, trajectory: &Trajectory) -> (Status, Option<String>) {
+    if status == Status::Finished
+        && let Some((channel, t)) = trajectory.first_not_finite()
+    {
+        let from = format!("{} is not a finite number from t = {t} s on", channel.name);
+        return (Status::Failed, Some(format!("{from}; try a smaller step or a tighter tolerance")));
+    }
+    (status, message.map(String::from))
 }
 
 /// The energy balance: its largest and last value, and both over the largest energy or work of the run.

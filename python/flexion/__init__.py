@@ -37,8 +37,21 @@ from ._view import View
 
 __version__ = version()
 
-# Threads that Python ends while they compute would end the process.
-_atexit.register(_engine.end)
+
+def _end() -> None:
+    # Threads that Python ends while they compute would end the process with an error.
+    for _ in range(10):
+        asked = _engine.end(1.0)
+        if asked is None:
+            return
+        for thread in asked:
+            # A law that does not return.
+            import ctypes
+
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(SystemExit))
+
+
+_atexit.register(_end)
 # The child of a process has the thread alone that forked.
 if hasattr(_os, "register_at_fork"):
     _os.register_at_fork(after_in_child=_engine.forked)

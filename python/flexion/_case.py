@@ -149,6 +149,8 @@ class Case:
 
         Ctrl-C raises :class:`flexion.Interrupted`, a run that breaks down :class:`flexion.RunError`; both have what was computed as ``.result``.
         """
+        if isinstance(until, str):
+            raise TypeError(f"`until` is {until!r} and must be a time in seconds, a number")
         if until is not None and not until >= 0.0:
             raise ValueError(f"`until` is {until} and must be a time of at least 0 s")
         bar = Progress(progress, stop)
@@ -157,7 +159,7 @@ class Case:
             core, raised, by_law = self._case.run(until, errors, asked, quantity, given(laws), bar)
         finally:
             bar.close()
-        run = Run(core, json.loads(core.summary()), name or self.title or self.file.stem, None)
+        run = Run(core, name or self.title or self.file.stem)
         if by_law is not None and (isinstance(by_law, KeyboardInterrupt) or not isinstance(by_law, Exception)):
             raised = by_law
         _raise(raised, run)
@@ -206,6 +208,10 @@ class Case:
             raise ValueError(f"`revolutions` is {revolutions} and must be from 0 to 1000")
         if not 0.0 <= margin < 100.0:
             raise ValueError(f"`margin` is {margin} % and must be from 0 to less than 100")
+        if isinstance(speeds, str):
+            raise TypeError(f"`speeds` is {speeds!r} and must be a list: write numpy.linspace(0, 20, 21) or [{speeds!r}]")
+        if threads < 0:
+            raise ValueError(f"`threads` is {threads} and must be at least 0")
         bar = Progress(progress, stop)
         listed = [_speed(speed) for speed in speeds]
         try:

@@ -86,6 +86,9 @@ def sampled(
 def _names(reads: Sequence[str]) -> tuple[str, ...]:
     if isinstance(reads, str):
         raise TypeError(f"`reads` is a list of columns: write [{reads!r}]")
+    for name in reads:
+        if not isinstance(name, str):
+            raise TypeError(f"`reads` is a list of columns, and {name!r} is no name of one")
     return tuple(reads)
 
 

@@ -28,10 +28,31 @@ if TYPE_CHECKING:
 Array: TypeAlias = "npt.NDArray[np.float64]"
 
 
+class _Results:
+    """What a run and its columns share; a column that held the run would keep both until the next collection of garbage."""
+
+    def __init__(self, source: _core.Run | _core.Stored, summary: dict[str, Any] | None) -> None:
+        self.source = source
+        if summary is not None:
+            self.summary = summary
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        assert isinstance(self.source, _core.Run)
+        stated: dict[str, Any] = json.loads(self.source.summary())
+        return stated
+
+    @cached_property
+    def ended(self) -> tuple[str, str | None, Sequence[str]]:
+        if isinstance(self.source, _core.Run):
+            return self.source.ended()
+        return str(self.summary["status"]), self.summary["message"], self.summary.get("warnings", ())
+
+
 class Column:
     """A recorded quantity: its values at the times of the run, and its smallest, largest and last value with their errors."""
 
-    __slots__ = ("_data", "_index", "_run", "kind", "name", "role", "unit")
+    __slots__ = ("_data", "_index", "_of", "kind", "name", "role", "unit")
 
     name: str
     """Its name, ``tip.deflection``."""
@@ -42,16 +63,16 @@ class Column:
     kind: str
     """What its values are: ``real`` numbers, an ``angle``, a part of a ``quaternion``."""
 
-    def __init__(self, run: Run, index: int, described: tuple[str, str, str, str]) -> None:
+    def __init__(self, of: _Results, index: int, described: tuple[str, str, str, str]) -> None:
         self.name, self.unit, self.role, self.kind = described
-        self._run, self._index = run, index
+        self._of, self._index = of, index
         self._data: Array | None = None
 
     @property
     def data(self) -> Array:
         """Its values, one at each of ``run.times``; the array cannot be written to and outlives the run."""
         if self._data is None:
-            self._data = self._run._source.column(self._index)
+            self._data = self._of.source.column(self._index)
         return self._data
 
     @property
@@ -70,9 +91,10 @@ class Column:
         return self._value("final")
 
     def _value(self, part: str) -> Value:
-        stated = self._run.summary["columns"][self.name]
+        summary = self._of.summary
+        stated = summary["columns"][self.name]
         value = stated[part]
-        time = self._run.end_time if part == "final" else stated[f"t_{part}"]
+        time = float(summary["end_time"]) if part == "final" else stated[f"t_{part}"]
         error = (stated.get("error") or {}).get(part)
         model = (stated.get("error") or {}).get("model")
         return Value(np.nan if value is None else value, error, self.unit, time, model)
@@ -141,16 +163,18 @@ class Run(Mapping[str, Column]):
     _source: _core.Run | _core.Stored
 
     def __init__(
-        self, source: _core.Run | _core.Stored, summary: dict[str, Any], name: str, folder: Path | None
+        self,
+        source: _core.Run | _core.Stored,
+        name: str,
+        stored: tuple[Path, dict[str, Any]] | None = None,
     ) -> None:
         self._source = source
-        self.summary: dict[str, Any] = summary
-        """What ``summary.json`` states."""
+        self._folder = None if stored is None else stored[0]
+        self._results = _Results(source, None if stored is None else stored[1])
         self.name = name
         """Its name in legends, which may be changed."""
-        self._folder = folder
         described = source.described()
-        self._columns = {of[0]: Column(self, i, of) for i, of in enumerate(described)}
+        self._columns = {of[0]: Column(self._results, i, of) for i, of in enumerate(described)}
 
     def __getitem__(self, name: str) -> Column:
         try:
@@ -187,15 +211,19 @@ class Run(Mapping[str, Column]):
         return self
 
     @property
+    def summary(self) -> dict[str, Any]:
+        """What ``summary.json`` states."""
+        return self._results.summary
+
+    @property
     def status(self) -> str:
         """``finished``, ``stopped`` or ``failed``."""
-        return str(self.summary["status"])
+        return self._results.ended[0]
 
     @property
     def message(self) -> str | None:
         """Why it ended early, where it did."""
-        message: str | None = self.summary["message"]
-        return message
+        return self._results.ended[1]
 
     @property
     def end_time(self) -> float:
@@ -205,7 +233,7 @@ class Run(Mapping[str, Column]):
     @property
     def warnings(self) -> tuple[str, ...]:
         """What a reader should know of it."""
-        return tuple(self.summary.get("warnings", ()))
+        return tuple(self._results.ended[2])
 
     @property
     def trust(self) -> Trust:
@@ -346,7 +374,7 @@ def load(folder: str | os.PathLike[str]) -> Run:
         raise ValueError(f"{summary} cannot be read ({error}): it is torn or was changed; run the case again") from error
     if not isinstance(stated, dict) or "columns" not in stated:
         raise ValueError(f"{summary} is not the summary of a run")
-    run = Run(stored, stated, path.resolve().name, path)
+    run = Run(stored, path.resolve().name, (path, stated))
     if stored.caution is not None:
         from ._errors import warn
 

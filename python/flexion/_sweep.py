@@ -159,6 +159,8 @@ def sweep(
     asked = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     if sample is None and not (runs is None and seed is None):
         raise ValueError("`runs` and `seed` are of a sample, and there is none: give `sample=`")
+    if threads < 0:
+        raise ValueError(f"`threads` is {threads} and must be at least 0")
     drawn = None if sample is None else (sample, _runs(runs), 0 if seed is None else seed)
     written = tuple(f"{key}={_values(values)}" for key, values in (vary or {}).items())
     plan = _Plan(case, written, _table(table), drawn, asked, errors, limit, part)

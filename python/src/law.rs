@@ -1,7 +1,7 @@
 //! Laws that functions of Python give.
 
 use super::value;
-use super::watch::ending;
+use super::watch::{Asked, ending};
 use flexion::command::{Command, LawState, Timing};
 use flexion_case::{Law, Start};
 use pyo3::exceptions::{PyException, PyTypeError};
@@ -118,6 +118,7 @@ impl Command for Function {
             return Err("is not asked any more: Python ends".to_owned());
         }
         let asked = Python::attach(|py| {
+            let _asked = Asked::new(py)?;
             let y = PyTuple::new(py, y)?;
             let given = self.function.call1(py, (t, y))?;
             if rates.is_empty() {

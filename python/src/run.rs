@@ -108,6 +108,13 @@ impl Run {
         self.reading.summary(&self.run).to_json()
     }
 
+    /// Status, message and warnings of `summary.json`.
+    fn ended(&self) -> (&'static str, Option<String>, Vec<&str>) {
+        let run = &self.run;
+        let (status, message) = flexion_results::outcome(run.status, run.message.as_deref(), &run.trajectory);
+        (status.word(), message, run.all_warnings().collect())
+    }
+
     /// The case, refined where that was asked, without laws of Python.
     fn case(&self, py: Python<'_>) -> PyResult<super::case::Case> {
         let reading = if self.reading.laws().is_empty() {

@@ -7,9 +7,9 @@ use std::any::Any;
 use std::cell::Cell;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -18,13 +18,15 @@ const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Computations of laws of computations of laws …, beyond which a thread has no stack left.
 const DEEPEST: usize = 4;
-/// How long the end of the interpreter waits for computations of other threads.
-const PATIENCE: Duration = Duration::from_secs(10);
 
 thread_local! {
     /// Computations of this thread, each but the first by a law of the one before.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
+    /// What Python calls this thread.
+    static IDENT: Cell<Option<u64>> = const { Cell::new(None) };
 }
+/// Threads in which a law is asked.
+static ASKED: Mutex<Vec<u64>> = Mutex::new(Vec::new());
 /// Computations of all threads.
 static RUNNING: AtomicUsize = AtomicUsize::new(0);
 /// Whether the interpreter ends.
@@ -53,16 +55,45 @@ pub fn ending() -> bool {
     ENDING.load(Ordering::SeqCst)
 }
 
-/// Ends the computations of other threads before the interpreter ends, which would end these threads in the middle of Rust.
+/// Ends the computations of other threads before the interpreter ends, which would end these threads in the middle of Rust. Gives `None` when none
+/// is left, and after `patience` \[s\] the threads in which a law has not returned.
 #[pyfunction]
-pub fn end(py: Python<'_>) {
+pub fn end(py: Python<'_>, patience: f64) -> Option<Vec<u64>> {
     ENDING.store(true, Ordering::SeqCst);
     let began = Instant::now();
     py.detach(|| {
-        while RUNNING.load(Ordering::SeqCst) > 0 && began.elapsed() < PATIENCE {
+        while RUNNING.load(Ordering::SeqCst) > 0 && began.elapsed().as_secs_f64() < patience {
             std::thread::sleep(Duration::from_millis(1));
         }
     });
+    (RUNNING.load(Ordering::SeqCst) > 0).then(|| ASKED.lock().map(|asked| asked.clone()).unwrap_or_default())
+}
+
+/// A thread in which a law is asked, as long as it lasts.
+pub struct Asked(u64);
+
+impl Asked {
+    pub fn new(py: Python<'_>) -> PyResult<Asked> {
+        let ident = match IDENT.get() {
+            Some(ident) => ident,
+            None => py.import("threading")?.call_method0("get_ident")?.extract()?,
+        };
+        IDENT.set(Some(ident));
+        if let Ok(mut asked) = ASKED.lock() {
+            asked.push(ident);
+        }
+        Ok(Asked(ident))
+    }
+}
+
+impl Drop for Asked {
+    fn drop(&mut self) {
+        if let Ok(mut asked) = ASKED.lock()
+            && let Some(last) = asked.iter().rposition(|ident| *ident == self.0)
+        {
+            asked.swap_remove(last);
+        }
+    }
 }
 
 /// Leaves computations to the process that has forked: its child has the thread alone that forked, with what it computes.

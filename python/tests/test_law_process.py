@@ -107,6 +107,26 @@ def test_python_may_end_while_a_law_sleeps_in_another_thread(verification: Path)
     assert (done.returncode, done.stdout.strip()) == (0, "ends"), done.stderr
 
 
+ENDLESS = """
+import sys, threading, flexion
+case = flexion.Case(sys.argv[1]) | {"hub": {"inertia": 5, "motion": {"kind": "free"}}, "run.duration": 1}
+asked = threading.Event()
+def torque(t, state):
+    asked.set()
+    while True:
+        pass
+threading.Thread(target=lambda: case.run(errors="off", laws={"hub.torque": torque}), daemon=True).start()
+asked.wait()
+sys.exit(3)
+"""
+
+
+def test_python_may_end_while_a_law_of_another_thread_does_not(verification: Path) -> None:
+    words = [sys.executable, "-c", ENDLESS, str(verification / "p1_spin_up_4")]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (3, "")
+
+
 def test_a_controller_that_keeps_its_run_or_its_error_is_freed(free: flexion.Case) -> None:
     class Controller:
         kept: Any = None

@@ -16,6 +16,7 @@ import sys
 import threading
 import time
 import warnings
+import weakref
 from pathlib import Path
 from typing import Any
 
@@ -52,6 +53,18 @@ def test_the_numbers_are_those_of_the_program(
         else:
             assert ours.read_bytes() == theirs.read_bytes(), theirs.name
     assert len(list((tmp_path / "package").iterdir())) == len(list((tmp_path / "program").iterdir()))
+
+
+def test_results_are_freed_without_the_collector_of_garbage(arm: flexion.Case) -> None:
+    gc.disable()
+    try:
+        for compute in (lambda: arm.run(errors="off"), lambda: arm.modes(count=2), lambda: arm.campbell([0, 1], count=2)):
+            result: Any = compute()
+            kept = weakref.ref(result)
+            del result
+            assert kept() is None
+    finally:
+        gc.enable()
 
 
 def test_columns_are_arrays_that_outlive_the_run_and_cannot_be_written_to(arm: flexion.Case) -> None:

@@ -94,6 +94,16 @@ def test_numbers_that_no_analysis_takes_are_refused(arm: flexion.Case) -> None:
     for margin in (-1.0, 100.0, math.nan):
         with pytest.raises(ValueError, match="`margin` is"):
             arm.campbell([0, 1], margin=margin)
+    with pytest.raises(ValueError, match="`threads` is -1"):
+        arm.campbell([0, 1], threads=-1)
+    with pytest.raises(ValueError, match="`threads` is -1"):
+        flexion.sweep(arm, {"beam.length": [1, 2]}, ["tip.deflection.min"], threads=-1)
+    with pytest.raises(TypeError, match="must be a list: write"):
+        arm.campbell("0:20:5")
+    with pytest.raises(TypeError, match="must be a time in seconds"):
+        arm.run(until="1 s")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="3 is no name of one"):
+        flexion.law(lambda t, y: 0.0, reads=[3])  # type: ignore[list-item]
 
 
 def test_advice_is_interrupted_by_what_its_stop_raises(arm: flexion.Case) -> None:

@@ -110,7 +110,9 @@ impl Input {
 #[non_exhaustive]
 pub enum CommandFault {
     /// A quantity is not there.
-    #[error("the law `{input}` reads `{column}`, and there is no such column")]
+    #[error(
+        "the law `{input}` reads `{column}`, and there is no such column (those of a run alone, as `energy.total` and `step.size`, no law reads)"
+    )]
     NoColumn {
         /// Name of the law.
         input: String,
