@@ -238,6 +238,10 @@ fn asked(words: &[String]) -> Option<Vec<Asked>> {
     let mut sound = true;
     for word in &names {
         let Place { folder, name, item } = place(word);
+        // A folder without a paper.toml says so.
+        let folder = folder.or_else(|| {
+            (!built_in_names().contains(&name) && Path::new(&name).is_dir()).then(|| name.clone().into())
+        });
         let read = folder.as_deref().map_or_else(|| built_in(&name), from_folder);
         match read {
             Ok(paper) => sound &= take(&mut out, folder, paper, item),

@@ -95,14 +95,16 @@ pub fn comparable(described: &Described, accept: bool) -> Result<(), CheckError>
 pub fn of_item<'a>(
     id: &str,
     item: &crate::described::Item,
-    numbers: &BTreeMap<(String, String), usize>,
+    (needs, numbers): (&[Need], &BTreeMap<(String, String), usize>),
     answers: &'a [Option<Answer>],
 ) -> Answers<'a> {
     let runs = crate::need::runs(item).into_iter();
     runs.map(|run| {
         let number = numbers.get(&(id.to_owned(), run.name.clone()));
         let answer = number.and_then(|number| answers.get(*number)).and_then(Option::as_ref);
-        (run.name, (answer, run.seconds))
+        // Another item may say how long the same run takes.
+        let seconds = number.and_then(|number| needs[*number].run.seconds);
+        (run.name, (answer, seconds))
     })
     .collect()
 }
@@ -141,7 +143,7 @@ fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
         out.values.retain(|_, [value, _]| value.is_finite());
     }
     for (id, item) in &described.items {
-        let answers = of_item(id, item, &numbers, answers);
+        let answers = of_item(id, item, (&needs, &numbers), answers);
         // Curves are compared by their differences.
         for of in &crate::need::terms(item) {
             if let Some(name) = of_curves(id, of)
@@ -252,7 +254,7 @@ fn gone(
         needs.iter().zip(answers).map(|(need, answer)| (of_need(need), (need, answer.is_some()))).collect();
     let whole = |id: &str| {
         described.items.iter().find(|(own, _)| own.as_str() == id).is_none_or(|(id, item)| {
-            of_item(id, item, &numbers, answers).values().all(|(answer, _)| answer.is_some())
+            of_item(id, item, (&needs, &numbers), answers).values().all(|(answer, _)| answer.is_some())
         })
     };
     let terms = |(id, item): &(String, crate::described::Item)| {

@@ -242,7 +242,8 @@ fn in_time(
             || "by a companion with a finer mesh and a more accurate integration".to_owned(),
             |why| format!("not known: {why}"),
         ),
-        _ => "of rounding, and of the distance of records: the run is asked for with the mesh and the steps that it has".to_owned(),
+        _ if itself => "of rounding, and of the distance of records: the run is asked for with the mesh and the steps that it has".to_owned(),
+        _ => "not known: the run ended early, and errors are estimated of whole runs; with `against` it is compared until then".to_owned(),
     };
     let warnings = run.all_warnings().map(str::to_owned).collect();
     Ok(Answer {

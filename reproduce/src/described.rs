@@ -203,6 +203,14 @@ pub struct Plot {
     pub label: Option<String>,
 }
 
+impl Plot {
+    /// Until when it is drawn, where it is over time \[s\].
+    pub fn end(&self) -> Option<f64> {
+        let to = self.to.as_ref()?;
+        to.as_float().or(to.as_integer().map(|to| to as f64))
+    }
+}
+
 /// A table with a row for each run.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

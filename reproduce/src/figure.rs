@@ -164,8 +164,7 @@ fn shorten(panel: &mut Panel) {
 
 fn over_time(item: &Item, plot: &Plot, answers: &Answers<'_>) -> Panel {
     let mut panel = Panel { x: Axis::time(), ..Panel::default() };
-    let to = plot.to.as_ref().and_then(|to| to.as_float().or(to.as_integer().map(|to| to as f64)));
-    let (from, to) = (plot.from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY));
+    let (from, to) = (plot.from.unwrap_or(f64::NEG_INFINITY), plot.end().unwrap_or(f64::INFINITY));
     for run in of_plot(item, plot) {
         let Ok(curve) = answer(answers, &run.name)
             .and_then(|answer| answer.curve(&plot.y).map_err(crate::term::Missing::Because))
@@ -193,7 +192,8 @@ fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
     for (run, number) in points(item, plot, answers) {
         let Some(at) = run.of.get(x).and_then(value_of) else { continue };
         let (mut name, label) = without(&run, x);
-        panel.x.quantity = label.unwrap_or_else(|| capitalised(&x.replace(['-', '_'], " ")));
+        (panel.x.quantity, panel.x.unit) =
+            label.unwrap_or_else(|| (capitalised(&x.replace(['-', '_'], " ")), String::new()));
         if name.is_empty() {
             let others = run.of.iter().filter(|(key, _)| *key != x);
             name = others.map(|(_, value)| plain(value)).collect::<Vec<_>>().join(", ");
@@ -227,13 +227,18 @@ fn over(item: &Item, plot: &Plot, x: &str, answers: &Answers<'_>) -> Panel {
     panel
 }
 
-/// The parts of the name of a run without that which names the value of `x`, which is given apart: `γ`.
-fn without(run: &Named, x: &str) -> (String, Option<String>) {
+/// The parts of the name of a run without that which names the value of `x`, which is given apart with its unit: of `Ω = {x} rad/s`, Ω and rad/s.
+fn without(run: &Named, x: &str) -> (String, Option<(String, String)>) {
     let key = format!("{{{x}}}");
     let (with, others): (Vec<&str>, Vec<&str>) =
         run.pattern.split(", ").partition(|part| part.contains(&key));
-    let label = with.first().map(|part| part.replace(&key, "").trim_matches([' ', '=']).to_owned());
-    (crate::need::filled(&others.join(", "), &run.of), label.filter(|label| !label.is_empty()))
+    let label = with.first().and_then(|part| part.split_once(&key)).and_then(|(before, behind)| {
+        let (quantity, unit) = (before.trim_matches([' ', '=']), behind.trim());
+        // `{n} modes` is a number of modes.
+        let label = if quantity.is_empty() { (unit, "") } else { (quantity, unit) };
+        (!label.0.is_empty()).then(|| (label.0.to_owned(), label.1.to_owned()))
+    });
+    (crate::need::filled(&others.join(", "), &run.of), label)
 }
 
 fn capitalised(text: &str) -> String {

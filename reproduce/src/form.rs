@@ -74,7 +74,7 @@ fn of_plot(plot: &Plot) -> Vec<String> {
     if plot.compared.is_some() {
         out.push("`as` compares values over what is varied, and this plot is over time".to_owned());
     }
-    let to = plot.to.as_ref().map(|to| to.as_float().or(to.as_integer().map(|to| to as f64)));
+    let to = plot.to.as_ref().map(|_| plot.end());
     match to {
         Some(None) => out.push("`to` of a plot over time is a number of seconds".to_owned()),
         _ => {
@@ -100,10 +100,21 @@ fn of_claim(claim: &Claim, keys: &BTreeMap<String, Key>) -> Vec<String> {
     let mut out = Vec::new();
     of_rule(&claim.rule, &mut |of: &OfRun| out.extend(of_times(&of.quantity, of.compared)));
     out.dedup();
+    out.extend(silent(claim));
     out.extend(constant(&claim.rule));
     out.extend(with_itself(&claim.rule, keys));
     out.extend(unfilled(claim));
     out.into_iter().map(|problem| format!("{}: {problem}", claim.text)).collect()
+}
+
+/// A claim with a sentence for what never comes out.
+fn silent(claim: &Claim) -> Option<String> {
+    if !matches!(claim.rule, Rule::Lost { .. }) {
+        return None;
+    }
+    let sentences = [("holds", &claim.holds), ("fails", &claim.fails), ("undecided", &claim.undecided)];
+    let said = sentences.iter().find(|(_, sentence)| sentence.is_some());
+    said.map(|(key, _)| format!("its rule is `lost`, and `{key}` is never said"))
 }
 
 /// What is wrong with the times to which a difference of curves is restricted; those of quantities are judged with their names.

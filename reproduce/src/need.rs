@@ -177,7 +177,7 @@ pub fn plain(value: &toml::Value) -> String {
 type Asked = BTreeSet<(String, String)>;
 
 /// The quantities and the columns that an item asks of its runs.
-fn asked(item: &Item) -> (Asked, Asked) {
+pub fn asked(item: &Item) -> (Asked, Asked) {
     let (mut quantities, mut columns) = (Asked::new(), Asked::new());
     for plot in item.plots.iter().filter(|plot| plot.x.is_none()) {
         columns.extend(named(item, plot.runs.as_ref()).into_iter().map(|run| (run, plot.y.clone())));
@@ -270,9 +270,20 @@ pub fn problems(item: &Item) -> Vec<String> {
         out.extend(contradictions(template).map(|problem| format!("run `{}`: {problem}", template.name)));
     }
     let names: Vec<String> = runs(item).into_iter().map(|run| run.name).collect();
+    for template in &item.runs {
+        for key in
+            template.name.split('{').skip(1).filter_map(|rest| rest.split_once('}')).map(|(key, _)| key)
+        {
+            if !template.each.contains_key(key) {
+                out.push(format!("run `{}`: `{{{key}}}` is no key of its `each`", template.name));
+            }
+        }
+    }
     for (i, name) in names.iter().enumerate() {
         if names[..i].contains(name) {
-            out.push(format!("two runs are called `{name}`: name the values of `each` in `name`"));
+            out.push(format!(
+                "two runs are called `{name}`: give them two names, and with `each` its values in them"
+            ));
         }
     }
     let (quantities, columns) = asked(item);

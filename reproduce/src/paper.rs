@@ -54,6 +54,8 @@ pub fn from_folder(folder: &Path) -> Result<Described, PaperError> {
     for (within, prefix) in [(folder.to_owned(), ""), (folder.join("cases"), "cases/")] {
         let entries = match std::fs::read_dir(&within) {
             Ok(entries) => entries,
+            // A paper of drawings has no cases.
+            Err(error) if !prefix.is_empty() && error.kind() == std::io::ErrorKind::NotFound => continue,
             Err(error) => {
                 problems.push(format!("cannot read {}: {error}", within.display()));
                 continue;
@@ -92,6 +94,12 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
             problems.push(format!("{place}/paper.toml: `items` has {item} twice"));
             continue;
         }
+        if !is_numbered(item) {
+            problems.push(format!(
+                "{place}/paper.toml: `{item}` of `items` is no F or T with a number, as F4 or T1"
+            ));
+            continue;
+        }
         let file = format!("{item}.toml");
         let Some(mut read) = parsed::<Item>(place, &file, files, &mut problems) else { continue };
         read.lines = files.get(&file).map(|text| lines(text)).unwrap_or_default();
@@ -106,6 +114,13 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
             let nearest =
                 nearest(&name, there).map_or(String::new(), |name| format!("; perhaps {place}/{name}"));
             problems.push(format!("{place}/{file}: its {what} {place}/{name} does not exist{nearest}"));
+        }
+        if let Some((name, text)) = read.drawing.as_ref().and_then(|name| files.get_key_value(name))
+            && !(text.trim_start().starts_with('<')
+                && text.contains("<svg")
+                && text.trim_end().ends_with("</svg>"))
+        {
+            problems.push(format!("{place}/{name} is no drawing in SVG"));
         }
         problems.extend(
             crate::need::problems(&read).into_iter().map(|problem| format!("{place}/{file}: {problem}")),
@@ -138,6 +153,15 @@ fn described(name: &str, place: &str, files: &Files) -> Result<Described, PaperE
         expected: files.get("expected.toml").cloned(),
         paper,
     })
+}
+
+/// Whether this is the name of an item: a figure or a table with its number.
+fn is_numbered(item: &str) -> bool {
+    let number = item.strip_prefix(['F', 'T']).unwrap_or_default();
+    let (first, rest) = number.split_at_checked(1).unwrap_or_default();
+    first.chars().all(|c| ('1'..='9').contains(&c))
+        && !first.is_empty()
+        && rest.chars().all(|c| c.is_ascii_alphanumeric())
 }
 
 fn parsed<T: serde::de::DeserializeOwned>(

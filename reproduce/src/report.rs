@@ -34,9 +34,9 @@ pub struct Reproduced<'a> {
 
 impl Reproduced<'_> {
     fn each(&self) -> impl Iterator<Item = (&str, &Item, Answers<'_>)> {
-        let numbers = of_paper(self.paper).1;
+        let (needs, numbers) = of_paper(self.paper);
         let items = self.paper.items.iter().filter(|(id, _)| self.items.contains(id));
-        items.map(move |(id, item)| (id.as_str(), item, of_item(id, item, &numbers, self.answers)))
+        items.map(move |(id, item)| (id.as_str(), item, of_item(id, item, (&needs, &numbers), self.answers)))
     }
 
     /// The verdicts on all claims, by item.

@@ -4,7 +4,7 @@
 use crate::compute::{Options, scale};
 use crate::described::{As, Described, Item, OfRun, Rule, Term};
 use crate::keep::Kept;
-use crate::need::{Asks, Named, Need, of_paper};
+use crate::need::{Asks, Named, Need, asked, of_paper, runs};
 use crate::paper::PaperError;
 use crate::term::column;
 use flexion_case::{Contents, Problem, Problems, Reading, parse_with, units};
@@ -35,9 +35,9 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
         let before = kept.as_ref().and_then(|kept| kept.find(text, need));
         // A refusal was judged by what the paper asked then.
         let before = before.filter(|answer| need.run.refused || !answer.refused());
-        before.map_or_else(|| of_need(described, need), |answer| (answer.units, Vec::new()))
+        before.map_or_else(|| of_need(described, need), |answer| (answer.units, Vec::new(), Vec::new()))
     };
-    let found: Mutex<BTreeMap<usize, (Of, Vec<String>)>> = Mutex::default();
+    let found: Mutex<BTreeMap<usize, Sound>> = Mutex::default();
     let next = AtomicUsize::new(0);
     let threads = std::thread::available_parallelism().map_or(1, std::num::NonZeroUsize::get);
     std::thread::scope(|scope| {
@@ -51,17 +51,31 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
         }
     });
     let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let mut problems: Vec<String> = found.values().flat_map(|(_, problems)| problems.clone()).collect();
+    let mut problems: Vec<String> = found.values().flat_map(|(_, problems, _)| problems.clone()).collect();
     for (id, item) in described.items.iter().filter(|(id, _)| items.contains(id)) {
         let unit = |run: &str, what: &str| {
-            let (units, _) = found.get(numbers.get(&(id.clone(), run.to_owned()))?)?;
+            let (units, ..) = found.get(numbers.get(&(id.clone(), run.to_owned()))?)?;
             units.get(what).cloned()
         };
         let file = format!("{}/{id}.toml", described.place);
         problems.extend(crate::form::problems(&file, item));
+        let (quantities, columns) = asked(item);
+        for run in runs(item) {
+            let number = numbers.get(&(id.clone(), run.name.clone()));
+            let Some((.., wrong)) = number.and_then(|number| found.get(number)) else { continue };
+            let Some((line, ..)) = item.lines.runs.get(run.template) else { continue };
+            let of = |words: &str| (run.name.clone(), words.to_owned());
+            // Another item may ask more of the same run.
+            let own = |words: &str| {
+                words == SPEED || quantities.contains(&of(words)) || columns.contains(&of(words))
+            };
+            problems.extend(wrong.iter().filter(|(words, _)| own(words)).map(|(words, why)| {
+                format!("{file}:{}: run `{}`: {why}", item.lines.of(words).unwrap_or(*line), run.name)
+            }));
+        }
         problems.extend(of_units(&file, item, &unit));
-        let end = |run: &str| end(described, &needs[*numbers.get(&(id.clone(), run.to_owned()))?]);
-        problems.extend(of_times(&file, item, &end));
+        let times = |run: &str| times(described, &needs[*numbers.get(&(id.clone(), run.to_owned()))?]);
+        problems.extend(of_times(&file, item, &times));
     }
     // What is wrong with a line is wrong with each run that is made of it.
     let mut seen = Vec::new();
@@ -73,8 +87,13 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
     if problems.is_empty() { Ok(()) } else { Err(PaperError(problems)) }
 }
 
-/// The units of what is asked of a run, and what is wrong with it.
-fn of_need(described: &Described, need: &Need) -> (Of, Vec<String>) {
+/// The units of what is asked of a run, what is wrong with its case, and what with which words that are asked of it.
+type Sound = (Of, Vec<String>, Vec<(String, String)>);
+
+/// The key of a run that is wrong itself.
+const SPEED: &str = "speed";
+
+fn of_need(described: &Described, need: &Need) -> Sound {
     let Some((_, item)) = described.items.iter().find(|(id, _)| *id == need.item) else {
         return Default::default();
     };
@@ -114,7 +133,7 @@ fn of_need(described: &Described, need: &Need) -> (Of, Vec<String>) {
     let reading = match parse_with(text, Path::new(&case), &run.key.set, &Contents::new()) {
         Ok(reading) => reading,
         Err(found) if meant(&found) => return Default::default(),
-        Err(found) => return (Of::new(), told(&found, set, 0)),
+        Err(found) => return (Of::new(), told(&found, set, 0), Vec::new()),
     };
     if let Some(Err(found)) = run.key.against.as_ref().map(|changes| reading.with(changes))
         && !meant(&found)
@@ -132,11 +151,7 @@ fn of_need(described: &Described, need: &Need) -> (Of, Vec<String>) {
         },
         Asks::Modes(_) | Asks::Energy(_) => of_frequencies(run, need),
     };
-    let at = |(words, wrong): (String, String)| {
-        format!("{file}:{}: run `{}`: {wrong}", item.lines.of(&words).unwrap_or(*line), run.name)
-    };
-    problems.extend(wrong.into_iter().map(at));
-    (units, problems)
+    (units, problems, wrong)
 }
 
 /// Units, and what is wrong with which words.
@@ -175,7 +190,7 @@ fn of_frequencies(run: &Named, need: &Need) -> Judged {
     let Some((unit, speed, count)) = modes.or(energy) else { return Default::default() };
     let (mut units, mut wrong) = (Of::new(), Vec::new());
     if let Err(why) = scale(unit, speed) {
-        wrong.push(("speed".to_owned(), why));
+        wrong.push((SPEED.to_owned(), why));
     }
     let of = if unit.is_some() { "" } else { "rad/s" };
     for name in &need.quantities {
@@ -207,7 +222,7 @@ fn of_units(file: &str, item: &Item, unit: &dyn Fn(&str, &str) -> Option<String>
         let known = known.filter_map(|run| unit(&run, &column.quantity)).next();
         let own = match column.compared {
             None | Some(As::Difference) => known,
-            Some(_) => None,
+            Some(_) => Some(String::new()),
         };
         if let (Some(wanted), Some(own)) = (&column.unit, own)
             && *wanted != own
@@ -219,23 +234,35 @@ fn of_units(file: &str, item: &Item, unit: &dyn Fn(&str, &str) -> Option<String>
     out
 }
 
-/// When a run ends by its case \[s\]; `None` where it is none in time, or its case is refused.
-fn end(described: &Described, need: &Need) -> Option<f64> {
+/// When a run ends by its case, and the interval of its records \[s\]; `None` where it is none in time, or its case is refused.
+fn times(described: &Described, need: &Need) -> Option<[f64; 2]> {
     let key = &need.run.key;
     let text = described.cases.get(&key.case).filter(|_| key.asks == Asks::Run)?;
     let file = format!("{}/cases/{}.toml", described.place, key.case);
     let reading = parse_with(text.clone(), Path::new(&file), &key.set, &Contents::new()).ok()?;
-    Some(reading.case.duration)
+    Some([reading.case.duration, reading.case.output.step])
 }
 
-/// The times of an item that lie behind the end of a run.
-fn of_times(file: &str, item: &Item, end: &dyn Fn(&str) -> Option<f64>) -> Vec<String> {
-    let mut ends: BTreeMap<String, Option<f64>> = BTreeMap::new();
-    let mut behind = |what: &str, run: &str, time: f64| {
-        let end = (*ends.entry(run.to_owned()).or_insert_with(|| end(run)))?;
-        (time > end * (1.0 + 1e-9)).then(|| {
-            format!("{what} asks for t = {time} s of `{run}`, which ends at {end} s: ask for times until then, or make `run.duration` longer")
-        })
+/// The times of an item that lie before the start or behind the end of a run, and those of quantities at which it has no record.
+fn of_times(file: &str, item: &Item, times: &dyn Fn(&str) -> Option<[f64; 2]>) -> Vec<String> {
+    let mut known: BTreeMap<String, Option<[f64; 2]>> = BTreeMap::new();
+    let mut wrong = |what: &str, run: &str, time: f64, at_records: bool| {
+        let [end, step] = (*known.entry(run.to_owned()).or_insert_with(|| times(run)))?;
+        let asks = format!("{what} asks for t = {time} s of `{run}`");
+        let off = (time / step - (time / step).round()).abs() * step;
+        if time < 0.0 {
+            Some(format!("{asks}, which begins at 0 s"))
+        } else if time > end * (1.0 + 1e-9) {
+            Some(format!(
+                "{asks}, which ends at {end} s: ask for times until then, or make `run.duration` longer"
+            ))
+        } else if at_records && off > 1e-6 * step && (time - end).abs() > 1e-6 * step {
+            Some(format!(
+                "{asks}, which has no record there, but every {step} s: ask for such a time, or set `output.step`"
+            ))
+        } else {
+            None
+        }
     };
     let mut out = Vec::new();
     let mut say = |line: usize, found: Option<String>| {
@@ -243,36 +270,41 @@ fn of_times(file: &str, item: &Item, end: &dyn Fn(&str) -> Option<f64>) -> Vec<S
     };
     for (claim, line) in item.claims.iter().zip(&item.lines.claims) {
         crate::need::of_rule(&claim.rule, &mut |of: &OfRun| {
-            if let Some(time) = latest(&of.quantity) {
+            let curve = of.compared == Some(As::CurveDifference);
+            for time in restricted(&of.quantity) {
                 let mut runs = std::iter::once(&of.run).chain(&of.to);
-                say(*line, runs.find_map(|run| behind(&of.quantity, run, time)));
+                say(*line, runs.find_map(|run| wrong(&of.quantity, run, time, !curve)));
             }
         });
     }
     for (column, line) in item.table.iter().flat_map(|table| &table.columns).zip(&item.lines.columns) {
-        if let Some(time) = latest(&column.quantity) {
+        let curve = column.compared == Some(As::CurveDifference);
+        for time in restricted(&column.quantity) {
             let mut runs = item.table.iter().flat_map(|table| crate::need::named(item, table.runs.as_ref()));
-            say(*line, runs.find_map(|run| behind(&column.quantity, &run, time)));
+            say(*line, runs.find_map(|run| wrong(&column.quantity, &run, time, !curve)));
         }
     }
     for (plot, line) in item.plots.iter().zip(&item.lines.plots) {
-        let (what, time) = match plot.x {
-            Some(_) => (plot.y.clone(), latest(&plot.y)),
-            None => (format!("`from` of the plot of {}", plot.y), plot.from),
+        let over_time =
+            |(key, time): (&str, Option<f64>)| Some((format!("`{key}` of the plot of {}", plot.y), time?));
+        let all: Vec<(String, f64)> = match plot.x {
+            Some(_) => restricted(&plot.y).into_iter().map(|time| (plot.y.clone(), time)).collect(),
+            None => [("from", plot.from), ("to", plot.end())].into_iter().filter_map(over_time).collect(),
         };
-        if let Some(time) = time {
+        let curve = plot.x.is_none() || plot.compared == Some(As::CurveDifference);
+        for (what, time) in all {
             let mut runs = crate::need::named(item, plot.runs.as_ref()).into_iter();
-            say(*line, runs.find_map(|run| behind(&what, &run, time)));
+            say(*line, runs.find_map(|run| wrong(&what, &run, time, !curve)));
         }
     }
     out
 }
 
-/// The last time \[s\] to which a quantity or a column is restricted; what is no time is judged with its name.
-fn latest(quantity: &str) -> Option<f64> {
-    let (_, times) = quantity.split_once('@')?;
+/// The times \[s\] to which a quantity or a column is restricted; what is no time is judged with its name.
+fn restricted(quantity: &str) -> Vec<f64> {
+    let Some((_, times)) = quantity.split_once('@') else { return Vec::new() };
     let times = times.split("..").filter_map(|time| time.trim().parse::<f64>().ok());
-    times.filter(|time| time.is_finite()).reduce(f64::max)
+    times.filter(|time| time.is_finite()).collect()
 }
 
 /// The unit of a term, where it is known; `None` for a number, which has any.

@@ -80,9 +80,11 @@ pub fn of_run(of: &OfRun, answers: &Answers<'_>) -> Result<Number, Missing> {
         let (value, error) = apart(curve(run)?, curve(to)?, within).map_err(Missing::Because)?;
         return Ok(Number { value, error, unit: String::new(), part: true, varies: false });
     }
-    let a = answer(answers, run)?.value(quantity).map_err(because(run))?;
-    let b = answer(answers, to)?.value(quantity).map_err(because(to))?;
-    let errors = a.error.zip(b.error);
+    let (own, other) = (answer(answers, run)?, answer(answers, to)?);
+    let a = own.value(quantity).map_err(because(run))?;
+    let b = other.value(quantity).map_err(because(to))?;
+    // A run has no difference from itself.
+    let errors = if std::ptr::eq(own, other) { Some((0.0, 0.0)) } else { a.error.zip(b.error) };
     let ratio = a.value / b.value;
     let of_ratio = errors.map(|(e, f)| (e + ratio.abs() * f) / (b.value.abs() - f).max(0.0));
     let (value, error, unit, part) = match compared {

@@ -1,7 +1,7 @@
 //! Verdicts on the claims of a paper.
 
 use crate::described::Claim;
-use crate::rule::{Ruled, ruled};
+use crate::rule::{Ruled, Words, ruled};
 use crate::term::Answers;
 
 /// A verdict.
@@ -37,14 +37,20 @@ impl Verdict {
     }
 }
 
+/// What was found, where a claim has no sentence for it: `left 1.2 ± 0.1 m, right 2 m`.
+fn listed(words: &Words) -> String {
+    let all = words.iter().map(|(name, value)| format!("{} {value}", name.trim_matches(['{', '}'])));
+    all.collect::<Vec<_>>().join(", ")
+}
+
 /// The verdict on a claim.
 pub fn judged(claim: &Claim, answers: &Answers<'_>) -> Verdict {
     let (ruled, words) = ruled(&claim.rule, answers);
     let filled =
         |text: &str| words.iter().fold(text.to_owned(), |text, (name, value)| text.replace(name, value));
     let mut sentence = match &ruled {
-        Ruled::Holds => claim.holds.as_deref().map(filled).unwrap_or_default(),
-        Ruled::Fails => claim.fails.as_deref().map(filled).unwrap_or_default(),
+        Ruled::Holds => claim.holds.as_deref().map_or_else(|| listed(&words), filled),
+        Ruled::Fails => claim.fails.as_deref().map_or_else(|| listed(&words), filled),
         Ruled::Undecided(why) => {
             let own = claim.undecided.as_deref().map(filled);
             own.map_or_else(|| format!("Not decided: {why}."), |own| format!("{own} ({why})"))

@@ -1,7 +1,7 @@
 //! What is wrong with a paper, said before any run of it is computed.
 
 use super::{RUNS, paper_of};
-use flexion_reproduce::{Options, built_in, from_folder, sound};
+use flexion_reproduce::{Options, Reproduced, built_in, from_folder, sound};
 
 #[test]
 fn everything_wrong_with_a_paper_is_said_at_once() {
@@ -51,10 +51,40 @@ fn runs_that_say_nothing_are_rejected() {
     for seconds in ["-1", "0", "nan"] {
         assert!(message(&with(&format!("seconds = {seconds}"))).contains("a positive time"));
     }
+    let named = RUNS.replace("name = 'few'", "name = 'few {m}'");
+    assert!(message(&named).contains("run `few {m}`: `{m}` is no key of its `each`"));
     assert_eq!(message(RUNS), "");
     let paper = std::fs::read_to_string(folder.path().join("paper.toml")).unwrap();
     std::fs::write(folder.path().join("paper.toml"), paper.replace("['F1']", "['F1', 'F1']")).unwrap();
     assert!(message(RUNS).contains("`items` has F1 twice"));
+    std::fs::write(folder.path().join("paper.toml"), paper.replace("['F1']", "['F01']")).unwrap();
+    assert!(message(RUNS).contains("`F01` of `items` is no F or T with a number"));
+    std::fs::write(folder.path().join("paper.toml"), &paper).unwrap();
+    std::fs::write(folder.path().join("F1.svg"), "not a drawing").unwrap();
+    assert!(message(&format!("drawing = 'F1.svg'\n{RUNS}")).contains("F1.svg is no drawing in SVG"));
+}
+
+/// Two items ask of the same run: what is wrong is said of that which asks it, and how long it takes holds for both.
+#[test]
+fn a_run_of_two_items_is_judged_for_each() {
+    let folder = tempfile::tempdir().unwrap();
+    paper_of(folder.path(), RUNS);
+    let paper = std::fs::read_to_string(folder.path().join("paper.toml")).unwrap();
+    std::fs::write(folder.path().join("paper.toml"), paper.replace("['F1']", "['F1', 'F2']")).unwrap();
+    let other = RUNS.replace("tip.deflection.min", "tip.deflection.mini");
+    std::fs::write(folder.path().join("F2.toml"), &other).unwrap();
+    let items = ["F1".to_owned(), "F2".to_owned()];
+    let message =
+        sound(&from_folder(folder.path()).unwrap(), &items, &Options::default()).unwrap_err().to_string();
+    assert!(message.contains("F2.toml:") && !message.contains("F1.toml:"), "{message}");
+    let long = RUNS.replace("name = 'few'", "name = 'few'\nseconds = 40");
+    std::fs::write(folder.path().join("F1.toml"), long).unwrap();
+    let claim = "[[claim]]\ntext = 'T'\nrule = { kind = 'finishes', runs = ['few'] }\n";
+    std::fs::write(folder.path().join("F2.toml"), format!("{RUNS}{claim}")).unwrap();
+    let paper = from_folder(folder.path()).unwrap();
+    let answers = super::of_item(&paper, "F2");
+    let reproduced = Reproduced { paper: &paper, answers: &answers, items: vec!["F2".to_owned()] };
+    assert_eq!(reproduced.verdicts()[0].1.sentence, "Not run: 40 s, `--long`.");
 }
 
 /// What a run of a paper cannot be is said before any is computed, at its line, with the nearest name; a refusal that is asked for is none.
@@ -144,6 +174,31 @@ fn what_runs_cannot_be_is_rejected_at_its_line() {
             RUNS.replace("y = 'tip.deflection'", "y = 'tip.deflection'\nfrom = 7"),
             "y = 'tip.deflection'",
             "`from` of the plot of tip.deflection asks for t = 7 s",
+        ),
+        (
+            RUNS.replace("y = 'tip.deflection'", "y = 'tip.deflection'\nto = 7"),
+            "y = 'tip.deflection'",
+            "`to` of the plot of tip.deflection asks for t = 7 s",
+        ),
+        (
+            RUNS.replace("quantity = 'tip.deflection.min'", "quantity = 'tip.deflection.at@-1'"),
+            "at@-1",
+            "asks for t = -1 s of `few`, which begins at 0 s",
+        ),
+        (
+            RUNS.replace("quantity = 'tip.deflection.min'", "quantity = 'tip.deflection.mean@1.0001..2'"),
+            "mean@",
+            "which has no record there, but every",
+        ),
+        (
+            RUNS.replace("unit = 'mm'", "to = 'few', as = 'relative-difference', unit = 'deg'"),
+            "unit = 'deg'",
+            "`deg` is a unit of angle",
+        ),
+        (
+            format!("{}holds = 'H'\n", claim("{ kind = 'lost', because = 'It is.' }")),
+            "kind = 'lost'",
+            "`holds` is never said",
         ),
     ];
     for (item, words, said) in cases {
