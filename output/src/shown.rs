@@ -29,7 +29,12 @@ pub fn with_error_of(value: f64, error: f64, digits: i32) -> String {
         format!("{value:.*e}", (size - last_shown).max(0) as usize)
     };
     if error > 0.0 {
-        format!("{number} ± {:.*}e{first}", (digits - 1) as usize, rounded / most)
+        let (decimals, leading) = ((digits - 1).max(0), rounded / most);
+        if (-1..4).contains(&first) {
+            let decimals = (decimals - first).max(0) as usize;
+            return format!("{number} ± {:.decimals$}", leading * 10f64.powi(first));
+        }
+        format!("{number} ± {leading:.*}e{first}", decimals as usize)
     } else {
         number
     }
@@ -44,8 +49,8 @@ mod tests {
         for (value, error, text) in [
             (-0.400_335_003, 1.35e-6, "-0.400335 ± 2e-6"),
             (-0.400_335_003, 9.6e-4, "-0.400 ± 1e-3"),
-            (123.456, 0.5, "123.5 ± 5e-1"),
-            (123.456, 40.0, "123 ± 4e1"),
+            (123.456, 0.5, "123.5 ± 0.5"),
+            (123.456, 40.0, "123 ± 40"),
             (1.5e9, 2e6, "1.500e9 ± 2e6"),
             (-2.4e-6, 3e-9, "-2.400e-6 ± 3e-9"),
             (4.0, 0.0, "4.000000000"),
@@ -56,7 +61,9 @@ mod tests {
         }
         for (value, error, text) in [
             (-0.400_335_003, 1.35e-6, "-0.4003350 ± 1.4e-6"),
-            (123.456, 9.96, "123 ± 1.0e1"),
+            (123.456, 9.96, "123 ± 10"),
+            (5.1, 13.2, "5 ± 14"),
+            (3.1, 4.75, "3.1 ± 4.8"),
             (0.25, 3e-14, "0.2500000000 ± 3.0e-14"),
         ] {
             assert_eq!(with_error_of(value, error, 2), text);

@@ -16,6 +16,8 @@ pub struct Answer {
     pub stated: String,
     /// The units of what is asked of it, whether there is a value or not.
     pub units: BTreeMap<String, String>,
+    /// When it ends by its case, and the interval of its records \[s\], where it is a run in time.
+    pub times: Option<[f64; 2]>,
     /// What the errors are from.
     pub errors: String,
     /// Its quantities, or why there is none.

@@ -3,7 +3,7 @@
 use crate::answer::{Answer, Curve, Valued};
 use crate::described::{Energy, EnergyTerm, OfEnergy, OfModes};
 use crate::keep::Kept;
-use crate::need::Need;
+use crate::need::{Asks, Need};
 use crate::shared::Shared;
 use flexion::analysis::error::SAFETY;
 use flexion::strain_energy::{StrainEnergy, Terms};
@@ -132,6 +132,7 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
                 _ => in_time(&reading, need, shared, stop)?,
             };
             answer.stated = titled(reading.stated(), &run.key.set);
+            answer.times = times(&reading, need);
             answer
         }
     };
@@ -145,6 +146,11 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
     }
     answer.seconds = began.elapsed().as_secs_f64();
     Ok(answer)
+}
+
+/// When a run in time ends by its case, and the interval of its records \[s\].
+pub fn times(reading: &Reading, need: &Need) -> Option<[f64; 2]> {
+    (need.run.key.asks == Asks::Run).then(|| [reading.case.duration, reading.case.output.step])
 }
 
 /// A case as it is written, whose title says what was changed.

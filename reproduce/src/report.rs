@@ -556,7 +556,11 @@ fn run_details(item: &Item, answers: &Answers<'_>, of: &Reproduced<'_>, name: &s
                     .raw("</details>");
                 out.element(
                     "p class=\"note varies\"",
-                    &format!("{} s here, errors included", plain((10.0 * answer.seconds).round() / 10.0)),
+                    &if answer.seconds < 0.05 {
+                        "less than 0.1 s here, errors included".to_owned()
+                    } else {
+                        format!("{} s here, errors included", plain((10.0 * answer.seconds).round() / 10.0))
+                    },
                 );
             }
             Some((None, seconds)) => {

@@ -5,6 +5,8 @@ use flexion_results::with_error_of;
 
 /// Digits of an error: one, rounded up, may say that values overlap which a rule tells apart.
 const DIGITS: i32 = 2;
+/// Part of a value up to which its error is rounding.
+const ROUNDING: f64 = 1e-10;
 
 /// A number with its error and unit: `-0.4003350 ± 1.4e-6 m`, or in per cent what is a part of something.
 pub fn shown(number: &Number) -> String {
@@ -12,7 +14,8 @@ pub fn shown(number: &Number) -> String {
     let value = factor * number.value;
     let text = match number.error {
         _ if number.varies => two_digits(value),
-        Some(error) if error > 0.0 => with_error_of(value, factor * error, DIGITS),
+        // Rounding is no error to be stated.
+        Some(error) if error > ROUNDING * number.value.abs() => with_error_of(value, factor * error, DIGITS),
         Some(_) => plain(value),
         None => format!("{} ± ?", plain(value)),
     };

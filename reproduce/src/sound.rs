@@ -1,7 +1,7 @@
 //! What is wrong with the runs of a paper, found before any is computed: cases that cannot be read or are refused, names that are
 //! none, units that do not go together.
 
-use crate::compute::{Options, scale};
+use crate::compute::{Options, scale, times};
 use crate::described::{As, Described, Item, OfRun, Rule, Term};
 use crate::keep::Kept;
 use crate::need::{Asks, Named, Need, asked, of_paper, runs};
@@ -35,7 +35,10 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
         let before = kept.as_ref().and_then(|kept| kept.find(text, need));
         // A refusal was judged by what the paper asked then.
         let before = before.filter(|answer| need.run.refused || !answer.refused());
-        before.map_or_else(|| of_need(described, need), |answer| (answer.units, Vec::new(), Vec::new()))
+        before.map_or_else(
+            || of_need(described, need),
+            |answer| Sound { units: answer.units, times: answer.times, ..Sound::default() },
+        )
     };
     let found: Mutex<BTreeMap<usize, Sound>> = Mutex::default();
     let next = AtomicUsize::new(0);
@@ -51,31 +54,28 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
         }
     });
     let found = found.into_inner().unwrap_or_else(PoisonError::into_inner);
-    let mut problems: Vec<String> = found.values().flat_map(|(_, problems, _)| problems.clone()).collect();
+    let mut problems: Vec<String> = found.values().flat_map(|of| of.problems.clone()).collect();
     for (id, item) in described.items.iter().filter(|(id, _)| items.contains(id)) {
-        let unit = |run: &str, what: &str| {
-            let (units, ..) = found.get(numbers.get(&(id.clone(), run.to_owned()))?)?;
-            units.get(what).cloned()
-        };
+        let of = |run: &str| found.get(numbers.get(&(id.clone(), run.to_owned()))?);
+        let unit = |run: &str, what: &str| of(run)?.units.get(what).cloned();
         let file = format!("{}/{id}.toml", described.place);
         problems.extend(crate::form::problems(&file, item));
         let (quantities, columns) = asked(item);
         for run in runs(item) {
-            let number = numbers.get(&(id.clone(), run.name.clone()));
-            let Some((.., wrong)) = number.and_then(|number| found.get(number)) else { continue };
-            let Some((line, ..)) = item.lines.runs.get(run.template) else { continue };
-            let of = |words: &str| (run.name.clone(), words.to_owned());
+            let (Some(judged), Some((line, ..))) = (of(&run.name), item.lines.runs.get(run.template)) else {
+                continue;
+            };
             // Another item may ask more of the same run.
             let own = |words: &str| {
-                words == SPEED || quantities.contains(&of(words)) || columns.contains(&of(words))
+                let asks = (run.name.clone(), words.to_owned());
+                words == SPEED || quantities.contains(&asks) || columns.contains(&asks)
             };
-            problems.extend(wrong.iter().filter(|(words, _)| own(words)).map(|(words, why)| {
+            problems.extend(judged.wrong.iter().filter(|(words, _)| own(words)).map(|(words, why)| {
                 format!("{file}:{}: run `{}`: {why}", item.lines.of(words).unwrap_or(*line), run.name)
             }));
         }
         problems.extend(of_units(&file, item, &unit));
-        let times = |run: &str| times(described, &needs[*numbers.get(&(id.clone(), run.to_owned()))?]);
-        problems.extend(of_times(&file, item, &times));
+        problems.extend(of_times(&file, item, &|run| of(run)?.times));
     }
     // What is wrong with a line is wrong with each run that is made of it.
     let mut seen = Vec::new();
@@ -87,8 +87,18 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
     if problems.is_empty() { Ok(()) } else { Err(PaperError(problems)) }
 }
 
-/// The units of what is asked of a run, what is wrong with its case, and what with which words that are asked of it.
-type Sound = (Of, Vec<String>, Vec<(String, String)>);
+/// What is known of a run before it is computed.
+#[derive(Default)]
+struct Sound {
+    /// The units of what is asked of it.
+    units: Of,
+    /// When it ends, and the interval of its records \[s\].
+    times: Option<[f64; 2]>,
+    /// What is wrong with its case.
+    problems: Vec<String>,
+    /// What is wrong with which words that are asked of it.
+    wrong: Vec<(String, String)>,
+}
 
 /// The key of a run that is wrong itself.
 const SPEED: &str = "speed";
@@ -133,7 +143,7 @@ fn of_need(described: &Described, need: &Need) -> Sound {
     let reading = match parse_with(text, Path::new(&case), &run.key.set, &Contents::new()) {
         Ok(reading) => reading,
         Err(found) if meant(&found) => return Default::default(),
-        Err(found) => return (Of::new(), told(&found, set, 0), Vec::new()),
+        Err(found) => return Sound { problems: told(&found, set, 0), ..Sound::default() },
     };
     if let Some(Err(found)) = run.key.against.as_ref().map(|changes| reading.with(changes))
         && !meant(&found)
@@ -151,7 +161,7 @@ fn of_need(described: &Described, need: &Need) -> Sound {
         },
         Asks::Modes(_) | Asks::Energy(_) => of_frequencies(run, need),
     };
-    (units, problems, wrong)
+    Sound { units, times: times(&reading, need), problems, wrong }
 }
 
 /// Units, and what is wrong with which words.
@@ -234,20 +244,10 @@ fn of_units(file: &str, item: &Item, unit: &dyn Fn(&str, &str) -> Option<String>
     out
 }
 
-/// When a run ends by its case, and the interval of its records \[s\]; `None` where it is none in time, or its case is refused.
-fn times(described: &Described, need: &Need) -> Option<[f64; 2]> {
-    let key = &need.run.key;
-    let text = described.cases.get(&key.case).filter(|_| key.asks == Asks::Run)?;
-    let file = format!("{}/cases/{}.toml", described.place, key.case);
-    let reading = parse_with(text.clone(), Path::new(&file), &key.set, &Contents::new()).ok()?;
-    Some([reading.case.duration, reading.case.output.step])
-}
-
 /// The times of an item that lie before the start or behind the end of a run, and those of quantities at which it has no record.
 fn of_times(file: &str, item: &Item, times: &dyn Fn(&str) -> Option<[f64; 2]>) -> Vec<String> {
-    let mut known: BTreeMap<String, Option<[f64; 2]>> = BTreeMap::new();
-    let mut wrong = |what: &str, run: &str, time: f64, at_records: bool| {
-        let [end, step] = (*known.entry(run.to_owned()).or_insert_with(|| times(run)))?;
+    let wrong = |what: &str, run: &str, time: f64, at_records: bool| {
+        let [end, step] = times(run)?;
         let asks = format!("{what} asks for t = {time} s of `{run}`");
         let off = (time / step - (time / step).round()).abs() * step;
         if time < 0.0 {
