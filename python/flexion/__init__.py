@@ -40,15 +40,20 @@ __version__ = version()
 
 def _end() -> None:
     # Threads that Python ends while they compute would end the process with an error.
+    import ctypes
+
+    told: set[int] = set()
     for _ in range(10):
-        asked = _engine.end(1.0)
+        try:
+            asked = _engine.end(1.0)
+        except KeyboardInterrupt:
+            asked = _engine.end(0.0)
         if asked is None:
             return
-        for thread in asked:
-            # A law that does not return.
-            import ctypes
-
+        for thread in set(asked) - told:
+            # A law that does not return, or what is asked whether to stop.
             ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(thread), ctypes.py_object(SystemExit))
+        told.update(asked)
 
 
 _atexit.register(_end)

@@ -162,19 +162,23 @@ class Case:
         run = Run(core, name or self.title or self.file.stem)
         if by_law is not None and (isinstance(by_law, KeyboardInterrupt) or not isinstance(by_law, Exception)):
             raised = by_law
-        _raise(raised, run)
-        why = run.message or "the run failed" if run.status == "failed" else None
-        if by_law is not None:
-            why = why or f"a law raised {by_law!r} in a run that estimates the errors"
-        elif core.refused is not None and not bar.stopped:
-            why = why or core.refused
-        if why is None:
-            warn(run.warnings)
-            return run
-        # Where warnings are errors, the run that broke down is the greater one.
-        with suppress(FlexionWarning):
-            warn(run.warnings)
-        raise RunError(why, run) from by_law
+        try:
+            _raise(raised, run)
+            why = run.message or "the run failed" if run.status == "failed" else None
+            if by_law is not None:
+                why = why or f"a law raised {by_law!r} in a run that estimates the errors"
+            elif core.refused is not None and not bar.stopped:
+                why = why or core.refused
+            if why is None:
+                warn(run.warnings)
+                return run
+            # Where warnings are errors, the run that broke down is the greater one.
+            with suppress(FlexionWarning):
+                warn(run.warnings)
+            raise RunError(why, run) from by_law
+        finally:
+            # What is raised has a traceback, which holds this frame.
+            del raised, by_law
 
     def modes(self, speed: float | str = 0.0, count: int = 10, *, free_hub: bool = False, unit: str = "rad/s") -> Modes:
         """The modes of small vibrations about the equilibrium in steady rotation at a speed [rad/s], or ``"12 rpm"``.
@@ -209,7 +213,7 @@ class Case:
         if not 0.0 <= margin < 100.0:
             raise ValueError(f"`margin` is {margin} % and must be from 0 to less than 100")
         if isinstance(speeds, str):
-            raise TypeError(f"`speeds` is {speeds!r} and must be a list: write numpy.linspace(0, 20, 21) or [{speeds!r}]")
+            raise TypeError(f"`speeds` is {speeds!r} and must be a list, as numpy.linspace(0, 20, 21) or [\"0 rpm\", \"6 rpm\"]")
         if threads < 0:
             raise ValueError(f"`threads` is {threads} and must be at least 0")
         bar = Progress(progress, stop)
@@ -221,7 +225,10 @@ class Case:
         finally:
             bar.close()
         diagram = Diagram(core)
-        _raise(raised, diagram)
+        try:
+            _raise(raised, diagram)
+        finally:
+            del raised
         warn([*diagram.warnings, *core.incomplete])
         return diagram
 
@@ -251,7 +258,10 @@ class Case:
         finally:
             bar.close()
         path = LoadPath(core)
-        _raise(raised, path)
+        try:
+            _raise(raised, path)
+        finally:
+            del raised
         warn([*path.warnings, *([] if path.end is None else [path.end])])
         return path
 
@@ -302,7 +312,10 @@ class Case:
         finally:
             bar.close()
         advice = Advice(self, json.loads(text))
-        _raise(raised, advice)
+        try:
+            _raise(raised, advice)
+        finally:
+            del raised
         return advice
 
 
@@ -339,10 +352,14 @@ def _speed(given: float | str) -> float:
 
 
 def _raise(raised: BaseException | None, result: Any) -> None:
-    if isinstance(raised, KeyboardInterrupt):
-        raise Interrupted("interrupted: `.result` is what was computed", result) from raised
-    if raised is not None:
-        raise raised
+    try:
+        if isinstance(raised, KeyboardInterrupt):
+            raise Interrupted("interrupted: `.result` is what was computed", result) from raised
+        if raised is not None:
+            raise raised
+    finally:
+        # Its traceback holds this frame.
+        del raised
 
 
 def _unpickled(version: str, text: str, file: str, contents: list[tuple[str, bytes]]) -> Case:

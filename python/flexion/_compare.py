@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,8 +62,15 @@ class Comparison(Mapping[str, Difference]):
         return f"<flexion.Comparison: {len(self)} columns, the largest relative difference {worst[1].relative or 0.0:.3e} of {worst[0]}>"
 
 
+def _are_runs(given: Iterable[Any]) -> None:
+    for run in given:
+        if not isinstance(run, Run):
+            raise TypeError(f"what is compared are results of Case.run or flexion.load, and {type(run).__name__} is none: give each by itself")
+
+
 def compare(first: Run, second: Run, *columns: str) -> Comparison:
     """How far the second run is from the first, in columns by patterns, or in all that they have in common."""
+    _are_runs((first, second))
     names = [first.name, second.name]
     if names[0] == names[1]:
         names[1] += " (2)"
@@ -71,10 +78,12 @@ def compare(first: Run, second: Run, *columns: str) -> Comparison:
     return Comparison(json.loads(text), figure)
 
 
-def plot(*runs: Run, columns: tuple[str, ...] | list[str] = (), title: str | None = None) -> Figure:
+def plot(*runs: Run, columns: tuple[str, ...] | list[str] | str = (), title: str | None = None) -> Figure:
     """Several runs in one figure, in columns by patterns, or in the first principal ones."""
     if not runs:
         raise ValueError("a figure is of at least one run")
+    _are_runs(runs)
+    columns = [columns] if isinstance(columns, str) else columns
     named: list[tuple[str, _core.Run | _core.Stored]] = []
     for number, run in enumerate(runs, 1):
         taken = any(run.name == name for name, _ in named)

@@ -122,6 +122,8 @@ def _with_rates(result: Any, own: list[str]) -> tuple[float, list[float]]:
 
 def given(laws: Mapping[str, Law | Function] | None) -> list[Given]:
     """The laws as the engine takes them."""
+    if laws is not None and not isinstance(laws, Mapping):
+        raise TypeError(f"`laws` names laws, {{\"hub.torque\": law}}, and {type(laws).__name__} has no names")
     listed: list[Given] = []
     for name, of in (laws or {}).items():
         of = of if isinstance(of, Law) else law(of)

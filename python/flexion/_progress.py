@@ -22,6 +22,8 @@ class Progress:
     """Shows a bar while a computation goes on, and asks whether it is to stop."""
 
     def __init__(self, show: bool | None, stop: Event | Callable[[], bool] | None) -> None:
+        if not (stop is None or callable(stop) or hasattr(stop, "is_set")):
+            raise TypeError(f"`stop` is {stop!r} and must be an event, or a function that says whether to stop")
         self._asked = stop
         self.stopped = False
         """Whether it has been asked to stop."""

@@ -104,6 +104,11 @@ class Column:
             return self.data
         return np.array(self.data, dtype=dtype)
 
+    def __array_function__(self, function: Any, _types: Any, args: Any, keywords: Any) -> Any:
+        # numpy.max asks for a method `max`, which is a value here.
+        plain = [np.asarray(of) if isinstance(of, Column) else of for of in args]
+        return function(*plain, **keywords)
+
     def __len__(self) -> int:
         return len(self.data)
 
@@ -241,6 +246,8 @@ class Run(Mapping[str, Column]):
         of = self.summary.get("trust")
         if of is None and self.status == "stopped":
             return Trust(False, "the run was stopped, and errors are estimated of a whole run", None)
+        if of is None and self.status == "failed":
+            return Trust(False, "the run failed, and errors are estimated of a whole run", None)
         if of is None:
             return Trust(False, "no errors were asked for", None)
         return Trust(bool(of["estimated"]), of["reason"], of["until"])
@@ -277,11 +284,15 @@ class Run(Mapping[str, Column]):
         self._source.save(folder, force)
         return Path(folder)
 
+    def _chosen(self, columns: Sequence[str] | None) -> list[Column]:
+        names = [columns] if isinstance(columns, str) else columns
+        return [self[name] for name in (names if names is not None else self)]
+
     def to_pandas(self, columns: Sequence[str] | None = None) -> pandas.DataFrame:
         """The columns as a frame over the times [s], whose ``attrs["units"]`` are their units."""
         import pandas
 
-        chosen = [self[name] for name in (columns if columns is not None else self)]
+        chosen = self._chosen(columns)
         index = pandas.Index(self.times, name="time")
         frame = pandas.DataFrame({column.name: column.data for column in chosen}, index=index)
         frame.attrs["units"] = {column.name: column.unit for column in chosen}
@@ -291,7 +302,7 @@ class Run(Mapping[str, Column]):
         """The columns as a data set over the times [s], each with its unit."""
         import xarray
 
-        chosen = [self[name] for name in (columns if columns is not None else self)]
+        chosen = self._chosen(columns)
         data = {column.name: ("time", column.data, {"units": column.unit}) for column in chosen}
         coordinates = {"time": ("time", self.times, {"units": "s"})}
         return xarray.Dataset(data, coords=coordinates, attrs={"title": self.name})
@@ -372,8 +383,9 @@ def load(folder: str | os.PathLike[str]) -> Run:
         stated = json.loads(summary.read_text(encoding="utf-8"))
     except ValueError as error:
         raise ValueError(f"{summary} cannot be read ({error}): it is torn or was changed; run the case again") from error
-    if not isinstance(stated, dict) or "columns" not in stated:
-        raise ValueError(f"{summary} is not the summary of a run")
+    texts = isinstance(stated, dict) and isinstance(stated.get("warnings"), list)
+    if not texts or any(key not in stated for key in ("columns", "status", "message", "end_time")):
+        raise ValueError(f"{summary} is not the summary of a run: it was changed, or is that of another analysis")
     run = Run(stored, path.resolve().name, (path, stated))
     if stored.caution is not None:
         from ._errors import warn

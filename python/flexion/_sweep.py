@@ -88,6 +88,14 @@ class Sweep(Mapping[str, "npt.NDArray[Any]"]):
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)
 
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name.partition(" [")[0] in self._columns
+
+    def __eq__(self, other: object) -> bool:
+        return self is other
+
+    __hash__ = object.__hash__
+
     def __len__(self) -> int:
         return len(self._columns)
 
@@ -159,6 +167,8 @@ def sweep(
     asked = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     if sample is None and not (runs is None and seed is None):
         raise ValueError("`runs` and `seed` are of a sample, and there is none: give `sample=`")
+    if not isinstance(case, Case):
+        raise TypeError(f"a sweep is of a flexion.Case, and {type(case).__name__} is none")
     if threads < 0:
         raise ValueError(f"`threads` is {threads} and must be at least 0")
     drawn = None if sample is None else (sample, _runs(runs), 0 if seed is None else seed)
@@ -179,10 +189,14 @@ def sweep(
         finally:
             bar.close()
         result = Sweep(made.columns(place), None if folder is None else place)
-    if isinstance(raised, KeyboardInterrupt):
-        raise Interrupted("interrupted: `.result` has the rows that are kept", result) from raised
-    if raised is not None:
-        raise raised
+    try:
+        if isinstance(raised, KeyboardInterrupt):
+            raise Interrupted("interrupted: `.result` has the rows that are kept", result) from raised
+        if raised is not None:
+            raise raised
+    finally:
+        # Its traceback holds this frame.
+        del raised
     assert outcome is not None
     _, _, failures, _, _, why = outcome
     if why is not None and why.startswith("stopped"):

@@ -137,7 +137,7 @@ class Modes(Shown, Sequence[Mode]):
         return html_table(self._table(), repr(self)[1:-1], self.warnings)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Branch:
     """A mode followed over speeds."""
 

@@ -55,7 +55,7 @@ pub fn results(py: Python<'_>, error: &ResultsError) -> PyErr {
 
 /// Files that cannot be written.
 pub fn output(error: &OutputError) -> PyErr {
-    PyOSError::new_err(error.to_string())
+    PyOSError::new_err(error.to_string().replace("--force", "force=True"))
 }
 
 /// A refinement that is not possible.

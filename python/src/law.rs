@@ -100,8 +100,9 @@ impl Start for Maker {
         }
         let function = Python::attach(|py| {
             let make = self.make.lock().ok().and_then(|make| make.as_ref().map(|make| make.clone_ref(py)));
-            make.ok_or_else(|| "belongs to a run that has ended".to_owned())
-                .and_then(|make| make.call0(py).map_err(|error| keep(&self.raised, error)))
+            let make = make.ok_or_else(|| "belongs to a run that has ended".to_owned())?;
+            let made = Asked::new(py).and_then(|_asked| make.call0(py));
+            made.map_err(|error| keep(&self.raised, error))
         })?;
         Ok(Box::new(Function { function, raised: Arc::clone(&self.raised) }))
     }

@@ -1,7 +1,7 @@
 //! What a computation does beside computing: it shows how far it is, and ends at Ctrl-C or where it is told to.
 
 use super::faults;
-use pyo3::exceptions::PyRecursionError;
+use pyo3::exceptions::{PyRecursionError, PyRuntimeError};
 use pyo3::prelude::*;
 use std::any::Any;
 use std::cell::Cell;
@@ -9,12 +9,15 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
-use std::sync::{Arc, Mutex};
-use std::thread;
+use std::sync::{Arc, Mutex, OnceLock};
+use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
 /// Interval at which Python is asked.
 const INTERVAL: Duration = Duration::from_millis(50);
+
+/// Why a thread computes no more.
+const ENDS: &str = "Python ends, and other threads compute no more";
 
 /// Computations of laws of computations of laws …, beyond which a thread has no stack left.
 const DEEPEST: usize = 4;
@@ -25,12 +28,12 @@ thread_local! {
     /// What Python calls this thread.
     static IDENT: Cell<Option<u64>> = const { Cell::new(None) };
 }
-/// Threads in which a law is asked.
+/// Threads that ask something of Python: a law, or whether to stop.
 static ASKED: Mutex<Vec<u64>> = Mutex::new(Vec::new());
 /// Computations of all threads.
 static RUNNING: AtomicUsize = AtomicUsize::new(0);
-/// Whether the interpreter ends.
-static ENDING: AtomicBool = AtomicBool::new(false);
+/// The thread in which the interpreter ends.
+static ENDING: OnceLock<ThreadId> = OnceLock::new();
 
 /// One that is counted as long as it lasts.
 struct Counted;
@@ -50,16 +53,16 @@ impl Drop for Counted {
     }
 }
 
-/// Whether the interpreter ends, and computations with it.
+/// Whether the interpreter ends, and with it the computations of this thread: all but what it still computes itself.
 pub fn ending() -> bool {
-    ENDING.load(Ordering::SeqCst)
+    ENDING.get().is_some_and(|thread| *thread != thread::current().id())
 }
 
 /// Ends the computations of other threads before the interpreter ends, which would end these threads in the middle of Rust. Gives `None` when none
-/// is left, and after `patience` \[s\] the threads in which a law has not returned.
+/// is left, and after `patience` \[s\] the threads in which Python has not returned.
 #[pyfunction]
 pub fn end(py: Python<'_>, patience: f64) -> Option<Vec<u64>> {
-    ENDING.store(true, Ordering::SeqCst);
+    ENDING.get_or_init(|| thread::current().id());
     let began = Instant::now();
     py.detach(|| {
         while RUNNING.load(Ordering::SeqCst) > 0 && began.elapsed().as_secs_f64() < patience {
@@ -69,7 +72,7 @@ pub fn end(py: Python<'_>, patience: f64) -> Option<Vec<u64>> {
     (RUNNING.load(Ordering::SeqCst) > 0).then(|| ASKED.lock().map(|asked| asked.clone()).unwrap_or_default())
 }
 
-/// A thread in which a law is asked, as long as it lasts.
+/// A thread that asks something of Python, as long as it lasts.
 pub struct Asked(u64);
 
 impl Asked {
@@ -108,6 +111,9 @@ pub fn guarded<T: Send>(py: Python<'_>, compute: impl FnOnce() -> T + Send) -> P
         let text = format!("a law computes a case whose law computes a case …, {DEEPEST} deep");
         return Err(PyRecursionError::new_err(text));
     }
+    if ending() {
+        return Err(PyRuntimeError::new_err(ENDS));
+    }
     let computed = py.detach(|| {
         let _counted = Counted::new();
         catch_unwind(AssertUnwindSafe(compute))
@@ -124,6 +130,9 @@ pub fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     compute: impl FnOnce() -> T + Send + 'static,
 ) -> PyResult<T> {
+    if ending() {
+        return Err(PyRuntimeError::new_err(ENDS));
+    }
     let (send, mut receive) = channel();
     let work = move || {
         // Of one that has been interrupted nobody takes the result.
@@ -136,7 +145,7 @@ pub fn interruptible<T: Send + 'static>(
         let next = &mut receive;
         match py.detach(move || next.recv_timeout(INTERVAL)) {
             Ok(computed) => return computed.map_err(|panic| broken(py, panic)),
-            Err(_) if ending() => return Err(faults::analysis(py, "Python ended before there was a result")),
+            Err(_) if ending() => return Err(PyRuntimeError::new_err(ENDS)),
             Err(RecvTimeoutError::Timeout) => {
                 py.check_signals().map_err(|raised| faults::interrupted(py, raised))?;
             }
@@ -189,6 +198,7 @@ impl Watch {
             // Signals reach the main thread alone.
             py.check_signals()?;
             let Some(notify) = &self.notify else { return Ok(false) };
+            let _asked = Asked::new(py)?;
             notify.call1(py, (part, text()))?.is_truthy(py)
         });
         self.last = Instant::now();

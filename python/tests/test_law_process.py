@@ -107,6 +107,22 @@ def test_python_may_end_while_a_law_sleeps_in_another_thread(verification: Path)
     assert (done.returncode, done.stdout.strip()) == (0, "ends"), done.stderr
 
 
+BEFORE = """
+import atexit, sys
+def last():
+    run = flexion.Case(sys.argv[1]).run(errors="off")
+    print(run.status, run.end_time)
+atexit.register(last)
+import flexion
+"""
+
+
+def test_a_handler_of_the_end_of_python_computes_whole_runs(verification: Path) -> None:
+    words = [sys.executable, "-c", BEFORE, str(verification / "p1_spin_up_4")]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=60)
+    assert (done.stdout.strip(), done.stderr) == ("finished 20.0", "")
+
+
 ENDLESS = """
 import sys, threading, flexion
 case = flexion.Case(sys.argv[1]) | {"hub": {"inertia": 5, "motion": {"kind": "free"}}, "run.duration": 1}
@@ -115,14 +131,22 @@ def torque(t, state):
     asked.set()
     while True:
         pass
-threading.Thread(target=lambda: case.run(errors="off", laws={"hub.torque": torque}), daemon=True).start()
+def stop():
+    return torque(0, {})
+laws = {
+    "law": lambda: case.run(errors="off", laws={"hub.torque": torque}),
+    "maker": lambda: case.run(errors="off", laws={"hub.torque": flexion.sampled(0.1, lambda: torque(0, {}))}),
+    "stop": lambda: (case | {"run.duration": 10000}).run(errors="off", stop=stop),
+}
+threading.Thread(target=laws[sys.argv[2]], daemon=True).start()
 asked.wait()
 sys.exit(3)
 """
 
 
-def test_python_may_end_while_a_law_of_another_thread_does_not(verification: Path) -> None:
-    words = [sys.executable, "-c", ENDLESS, str(verification / "p1_spin_up_4")]
+@pytest.mark.parametrize("what", ["law", "maker", "stop"])
+def test_python_may_end_while_what_another_thread_asks_does_not(verification: Path, what: str) -> None:
+    words = [sys.executable, "-c", ENDLESS, str(verification / "p1_spin_up_4"), what]
     done = subprocess.run(words, capture_output=True, text=True, timeout=60)
     assert (done.returncode, done.stderr) == (3, "")
 

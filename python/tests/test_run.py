@@ -17,6 +17,7 @@ import threading
 import time
 import warnings
 import weakref
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -56,8 +57,26 @@ def test_the_numbers_are_those_of_the_program(
 
 
 def test_results_are_freed_without_the_collector_of_garbage(arm: flexion.Case) -> None:
+    def interrupt() -> bool:
+        raise KeyboardInterrupt
+
+    def fails(t: float, state: object) -> float:
+        raise ValueError("no")
+
+    free = arm | {"hub": {"inertia": 5, "motion": {"kind": "free"}}}
+    raising: list[Callable[[], Any]] = [
+        lambda: free.run(errors="off", laws={"hub.torque": fails}),
+        lambda: (arm | {"run.duration": 2000}).run(errors="off", stop=interrupt),
+        lambda: arm.campbell([x / 100 for x in range(2000)], stop=interrupt),
+    ]
     gc.disable()
     try:
+        for ends in raising:
+            try:
+                ends()
+            except (flexion.RunError, flexion.Interrupted) as error:
+                left = weakref.ref(error)
+            assert left() is None
         for compute in (lambda: arm.run(errors="off"), lambda: arm.modes(count=2), lambda: arm.campbell([0, 1], count=2)):
             result: Any = compute()
             kept = weakref.ref(result)
@@ -70,6 +89,7 @@ def test_results_are_freed_without_the_collector_of_garbage(arm: flexion.Case) -
 def test_columns_are_arrays_that_outlive_the_run_and_cannot_be_written_to(arm: flexion.Case) -> None:
     run = arm.run(errors="off")
     deflection, times = run["tip.deflection"].data, run.times
+    assert np.max(run["tip.deflection"]) == deflection.max()
     least = float(run["tip.deflection"].min)
     assert deflection.dtype == np.float64 and deflection.shape == times.shape == (1001,)
     assert run["tip.deflection"].data is deflection

@@ -98,8 +98,14 @@ def test_numbers_that_no_analysis_takes_are_refused(arm: flexion.Case) -> None:
         arm.campbell([0, 1], threads=-1)
     with pytest.raises(ValueError, match="`threads` is -1"):
         flexion.sweep(arm, {"beam.length": [1, 2]}, ["tip.deflection.min"], threads=-1)
-    with pytest.raises(TypeError, match="must be a list: write"):
+    with pytest.raises(TypeError, match="must be a list, as"):
         arm.campbell("0:20:5")
+    with pytest.raises(TypeError, match="`stop` is 5.0"):
+        arm.run(stop=5.0)  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="str is none"):
+        flexion.compare("a", "b")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="list has no names"):
+        arm.run(laws=[max])  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="must be a time in seconds"):
         arm.run(until="1 s")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="3 is no name of one"):

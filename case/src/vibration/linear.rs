@@ -118,7 +118,8 @@ impl Reading {
             chosen.push(found.ok_or_else(|| {
                 let near = nearest(name, channels.iter().map(|channel| channel.name.as_str()));
                 let near = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
-                VibrationError::Request(format!("the case has no column `{name}`{near}"))
+                VibrationError::Request(format!("the case has no column `{name}`{near}; those of a run alone, as `energy.total`, are no functions of the \
+                     motion"))
             })?);
         }
         let outputs = motions.outputs(system.as_mut(), &state, &chosen).map_err(|dependent| {
