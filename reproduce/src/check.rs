@@ -15,6 +15,8 @@ const LISTED: f64 = 1e-9;
 const GROWN: f64 = 10.0;
 /// Factor by which an accepted error may be larger than one that is found: beyond it a check would let anything pass.
 const SHRUNK: f64 = 1e3;
+/// What the moment of a curve is called.
+const MOMENT: &str = "moment";
 /// Error over its value below which its growth is rounding.
 const SMALL: f64 = 1e-9;
 
@@ -138,6 +140,8 @@ fn found(described: &Described, answers: &[Option<Answer>]) -> Expected {
             let Ok(curve) = curve else { continue };
             let name = format!("{run} | {column} root-mean-square");
             out.values.insert(name, [root_mean_square(&curve.y), largest_error(curve)]);
+            let name = format!("{run} | {column} {MOMENT}");
+            out.values.insert(name, [moment(&curve.y), largest_error(curve)]);
         }
         // What is no number agrees with nothing.
         out.values.retain(|_, [value, _]| value.is_finite());
@@ -169,6 +173,13 @@ fn root_mean_square(y: &[f64]) -> f64 {
         return 0.0;
     }
     largest * (y.iter().map(|y| (y / largest).powi(2)).sum::<f64>() / y.len() as f64).sqrt()
+}
+
+/// Σ wᵢyᵢ/n of the records of a curve, with wᵢ from 0 at its first to 1 at its last and at most the largest error of y: it has a sense, and knows
+/// when what is.
+fn moment(y: &[f64]) -> f64 {
+    let last = y.len().saturating_sub(1).max(1) as f64;
+    y.iter().enumerate().map(|(i, y)| i as f64 / last * y).sum::<f64>() / y.len().max(1) as f64
 }
 
 /// The largest stated error of a curve, -1 where it is not known.
@@ -284,7 +295,7 @@ fn gone(
 
 /// Whether a value of this name is asked of a run.
 fn is_asked(need: &Need, what: &str) -> bool {
-    let column = what.strip_suffix(" root-mean-square");
+    let column = what.strip_suffix(" root-mean-square").or(what.strip_suffix(MOMENT).map(str::trim_end));
     need.run.key.asks != Asks::Run
         || need.quantities.contains(what)
         || column.is_some_and(|column| need.columns.contains(column))

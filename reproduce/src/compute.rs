@@ -201,8 +201,16 @@ fn in_time(
     let same = |other: &std::sync::Arc<Run>| other.trajectory == run.trajectory;
     let other = other.map(|other| {
         other.and_then(|other| {
+            let end = |run: &Run| run.trajectory.times().last().copied().unwrap_or(0.0);
             if same(&other) {
                 Err("`against` gives the same run, which says nothing of its errors".to_owned())
+            } else if end(&other) < end(&run) * (1.0 - 1e-9) {
+                let ends = format!(
+                    "the run of `against` ends at t = {} s, before this one at {} s",
+                    end(&other),
+                    end(&run)
+                );
+                Err(other.message.as_ref().map_or(ends.clone(), |why| format!("{ends}: {why}")))
             } else {
                 Ok(other)
             }

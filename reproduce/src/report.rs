@@ -437,7 +437,7 @@ fn item_section(
         }
         out.raw("</div>");
     }
-    run_details(item, answers, of, &name, out);
+    run_details((id, item), answers, of, &name, out);
     out.raw("</article>");
 }
 
@@ -509,7 +509,13 @@ fn run_anchor(name: &str, run: &str) -> String {
 }
 
 /// Every run of an item: its command, its case, its errors and its warnings.
-fn run_details(item: &Item, answers: &Answers<'_>, of: &Reproduced<'_>, name: &str, out: &mut Html) {
+fn run_details(
+    (id, item): (&str, &Item),
+    answers: &Answers<'_>,
+    of: &Reproduced<'_>,
+    name: &str,
+    out: &mut Html,
+) {
     let all = runs(item);
     if all.is_empty() {
         return;
@@ -521,7 +527,7 @@ fn run_details(item: &Item, answers: &Answers<'_>, of: &Reproduced<'_>, name: &s
         out.raw(&format!("<details id=\"{}\"><summary>", run_anchor(name, &run.name)))
             .text(&run.name)
             .raw("</summary>");
-        out.element("pre class=command", &command(run, &of.paper.place));
+        out.element("pre class=command", &command(run, (&of.paper.name, &of.paper.place, id)));
         match answers.get(&run.name) {
             Some((Some(answer), _)) => {
                 let mut said = answer.status.clone();
@@ -574,13 +580,23 @@ fn run_details(item: &Item, answers: &Answers<'_>, of: &Reproduced<'_>, name: &s
 }
 
 /// The command that runs it.
-fn command(run: &Named, place: &str) -> String {
+/// The command that repeats a run, and what it shows of it where that is not all.
+fn command(run: &Named, (name, place, item): (&str, &str, &str)) -> String {
+    let quoted = |word: &str| {
+        if word.contains([' ', '\'', '&', ';', '(']) {
+            format!("'{}'", word.replace('\'', "'\\''"))
+        } else {
+            word.to_owned()
+        }
+    };
     let sets: Vec<String> =
         run.key.set.iter().map(|set| format!(" --set '{}'", set.replace('\'', "\""))).collect();
-    let file = format!("{place}/cases/{}.toml", run.key.case);
-    let within = |what: String| format!("flexion reproduce {place}: {what} of {file}{}", sets.concat());
+    let file = quoted(&format!("{place}/cases/{}.toml", run.key.case));
+    let built_in = crate::built_in_names().iter().any(|built| built == name);
+    let paper = quoted(&format!("{}/{item}", if built_in { name } else { place }));
+    // Speeds in units of their own, transverse frequencies and strain energies are what no command of a case asks for.
+    let within = |what: String| format!("flexion reproduce {paper}\n# {what} of {file}{}", sets.concat());
     match (&run.modes, &run.energy) {
-        // Speeds in units of their own, and transverse frequencies, are what no command of a case asks for.
         (Some(modes), _) if modes.transverse || modes.unit.is_some() => within(format!(
             "{} {}frequencies at the speed {}",
             modes.count,
@@ -594,7 +610,9 @@ fn command(run: &Named, place: &str) -> String {
         (_, Some(energy)) => {
             let kind = format!("{:?}", energy.energy).to_lowercase();
             let speed = crate::need::plain(&energy.speed);
-            within(format!("frequencies by the {kind} strain energy at the speed {speed}"))
+            let terms: Vec<String> = energy.terms.iter().map(|term| format!("{term:?}")).collect();
+            let terms = if terms.is_empty() { String::new() } else { format!(" with {}", terms.join(", ")) };
+            within(format!("frequencies by the {kind} strain energy{terms} at the speed {speed}"))
         }
         _ => format!("flexion run {file}{}", sets.concat()),
     }

@@ -54,8 +54,17 @@ pub fn ruled(rule: &Rule, answers: &Answers<'_>) -> (Ruled, Words) {
         Missing::Long(seconds) => Ruled::NotRun(seconds),
         Missing::Because(why) => Ruled::Undecided(why),
     });
+    // What is missing has no value to be said.
+    for word in placeholders(rule).into_iter().map(|word| format!("{{{word}}}")) {
+        if words.iter().all(|(known, _)| *known != word) {
+            words.push((word, UNKNOWN.to_owned()));
+        }
+    }
     (ruled, words)
 }
+
+/// What stands for a value that is missing.
+const UNKNOWN: &str = "an unknown value";
 
 fn decide(rule: &Rule, answers: &Answers<'_>, words: &mut Words) -> Result<Ruled, Missing> {
     match rule {
@@ -139,7 +148,7 @@ fn decide_each(rules: &[Rule], answers: &Answers<'_>, words: &mut Words) -> Vec<
         // Another rule may decide where this one has no values.
         for word in placeholders(rule).into_iter().map(|word| format!("{{{word}}}")) {
             if own.iter().all(|(known, _)| *known != word) {
-                own.push((word, "an unknown value".to_owned()));
+                own.push((word, UNKNOWN.to_owned()));
             }
         }
         for (name, value) in own {

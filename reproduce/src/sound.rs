@@ -76,6 +76,7 @@ pub fn sound(described: &Described, items: &[String], options: &Options) -> Resu
         }
         problems.extend(of_units(&file, item, &unit));
         problems.extend(of_times(&file, item, &|run| of(run)?.times));
+        problems.extend(of_records(&file, item, &|run| of(run)?.times));
     }
     // What is wrong with a line is wrong with each run that is made of it.
     let mut seen = Vec::new();
@@ -295,6 +296,28 @@ fn of_times(file: &str, item: &Item, times: &dyn Fn(&str) -> Option<[f64; 2]>) -
         for (what, time) in all {
             let mut runs = crate::need::named(item, plot.runs.as_ref()).into_iter();
             say(*line, runs.find_map(|run| wrong(&what, &run, time, !curve)));
+        }
+    }
+    out
+}
+
+/// Times the interval of records by which those of a curve that is compared may be apart.
+const SPARSER: f64 = 10.0 + 1e-6;
+
+/// Curves that are compared and have records at other times, or few in common.
+fn of_records(file: &str, item: &Item, times: &dyn Fn(&str) -> Option<[f64; 2]>) -> Vec<String> {
+    let mut out = Vec::new();
+    for of in crate::need::terms(item).iter().filter(|of| of.compared == Some(As::CurveDifference)) {
+        let Some(to) = &of.to else { continue };
+        if let Some(([_, a], [_, b])) = times(&of.run).zip(times(to))
+            && let ratio = a.max(b) / a.min(b)
+            && (ratio > SPARSER || (ratio - ratio.round()).abs() > 1e-6)
+        {
+            let line = item.lines.of(&of.quantity).unwrap_or(1);
+            out.push(format!(
+                "{file}:{line}: {} of `{}`, with records every {a} s, is compared with that of `{to}`, with records every {b} s: give both one `output.step`",
+                of.quantity, of.run
+            ));
         }
     }
     out

@@ -133,7 +133,7 @@ pub fn window(text: &str) -> Result<(&str, (f64, f64)), String> {
     }
 }
 
-/// max |a − b| / max |b| over the common times, and its error by those of both.
+/// max |a − b| / max |b| over the common times, and its error by those of both, also of the divisor.
 fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f64>), String> {
     let last = |curve: &Curve| curve.t.last().copied().unwrap_or(0.0);
     let end = last(a).min(last(b));
@@ -141,7 +141,7 @@ fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f6
     if end < needed * (1.0 - 1e-9) {
         return Err(format!("a run ends at t = {end} s, before {needed} s"));
     }
-    let (mut largest, mut size, mut off) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut largest, mut size, mut off, mut off_size) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
     let mut j = 0;
     let mut common = 0;
     for (i, t) in a.t.iter().enumerate() {
@@ -158,6 +158,7 @@ fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f6
         let error = |curve: &Curve, k: usize| curve.off.get(k).copied().unwrap_or(f64::NAN);
         let now = error(a, i) + error(b, j);
         off = if now.is_nan() { f64::NAN } else { off.max(now) };
+        off_size = off_size.max(error(b, j));
     }
     if common == 0 {
         return Err("the two runs have no time in common".to_owned());
@@ -165,6 +166,7 @@ fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f6
     if size == 0.0 {
         return Err("the column is zero".to_owned());
     }
-    let error = (off / size).is_finite().then_some(off / size);
-    Ok((largest / size, error))
+    let ratio = largest / size;
+    let error = (off + ratio * off_size) / (size - off_size).max(0.0);
+    Ok((ratio, error.is_finite().then_some(error)))
 }

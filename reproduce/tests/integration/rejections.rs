@@ -196,6 +196,14 @@ fn what_runs_cannot_be_is_rejected_at_its_line() {
             "`deg` is a unit of angle",
         ),
         (
+            claim(
+                "{ kind = 'agree', runs = ['few', 'many'], quantity = 'tip.deflection', within = 0.01, curves = true }",
+            )
+            .replacen("duration=6 s'", "duration=6 s', 'output.step=0.97 s'", 1),
+            "'tip.deflection'",
+            "with records every 0.02 s, is compared with that of `few`, with records every 0.97 s",
+        ),
+        (
             format!("{}holds = 'H'\n", claim("{ kind = 'lost', because = 'It is.' }")),
             "kind = 'lost'",
             "`holds` is never said",
