@@ -170,3 +170,22 @@ fn apart(a: &Curve, b: &Curve, (from, to): (f64, f64)) -> Result<(f64, Option<f6
     let error = (off + ratio * off_size) / (size - off_size).max(0.0);
     Ok((ratio, error.is_finite().then_some(error)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 3 and 2 ± 0.5: |3 − 2|/2 is 1/2, and |3 − 1.5|/1.5 is 1.
+    #[test]
+    fn the_error_of_a_divisor_counts() {
+        let curve = |y: f64, off: f64| Curve {
+            unit: "m".to_owned(),
+            t: vec![0.0, 1.0],
+            y: vec![0.0, y],
+            off: vec![0.0, off],
+        };
+        let all = (f64::NEG_INFINITY, f64::INFINITY);
+        assert_eq!(apart(&curve(3.0, 0.0), &curve(2.0, 0.5), all), Ok((0.5, Some(0.5))));
+        assert_eq!(apart(&curve(3.0, 0.0), &curve(2.0, 2.0), all), Ok((0.5, None)));
+    }
+}

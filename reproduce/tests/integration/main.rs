@@ -470,6 +470,24 @@ fn a_changed_curve_fails_the_check() {
     let failed = check(&paper, &changed).unwrap().failed;
     assert!(!failed.iter().any(|line| line.contains("curve-difference")), "{failed:?}");
     assert_eq!(failed.iter().filter(|line| line.contains("root-mean-square")).count(), 3, "{failed:?}");
+    // Curves that are mirrored have the same differences and the same root mean squares.
+    for answer in changed.iter_mut().flatten() {
+        let curve = answer.curves.get_mut("tip.deflection").unwrap().as_mut().unwrap();
+        curve.y.iter_mut().for_each(|y| *y /= -1.5);
+    }
+    let failed = check(&paper, &changed).unwrap().failed;
+    assert!(failed.len() == 3 && failed.iter().all(|line| line.contains("moment")), "{failed:?}");
+}
+
+/// Of a run with which another is compared and that ends before it no error follows.
+#[test]
+fn a_run_that_ends_before_the_other_says_nothing_of_its_errors() {
+    let folder = tempfile::tempdir().unwrap();
+    let item = RUNS.replace("name = 'few'", "name = 'few'\nagainst = ['run.duration=3 s']");
+    let answers = computed(&paper_of(folder.path(), &item), &Options::default());
+    let answer = answers[0].as_ref().unwrap();
+    assert_eq!(answer.errors, "not known: the run of `against` ends at t = 3 s, before this one at 6 s");
+    assert_eq!(answer.values["tip.deflection.min"].as_ref().unwrap().error, None);
 }
 
 /// The studies of the repository, and the papers, can be computed, but for what time shows.
