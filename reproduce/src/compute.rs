@@ -150,7 +150,7 @@ fn answered(text: &str, need: &Need, shared: &Shared, stop: &dyn Fn() -> bool) -
 
 /// When a run in time ends by its case, and the interval of its records \[s\].
 pub fn times(reading: &Reading, need: &Need) -> Option<[f64; 2]> {
-    (need.run.key.asks == Asks::Run).then(|| [reading.case.duration, reading.case.output.step])
+    (need.run.key.asks == Asks::Run).then_some([reading.case.duration, reading.case.output.step])
 }
 
 /// A case as it is written, whose title says what was changed.
