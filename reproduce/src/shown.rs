@@ -12,10 +12,12 @@ const ROUNDING: f64 = 1e-10;
 pub fn shown(number: &Number) -> String {
     let (factor, unit) = if number.part { (100.0, "%") } else { (1.0, number.unit.as_str()) };
     let value = factor * number.value;
+    // A part is a difference of values of that of which it is one.
+    let size = if number.part { number.value.abs().max(1.0) } else { number.value.abs() };
     let text = match number.error {
         _ if number.varies => two_digits(value),
         // Rounding is no error to be stated.
-        Some(error) if error > ROUNDING * number.value.abs() => with_error_of(value, factor * error, DIGITS),
+        Some(error) if error > ROUNDING * size => with_error_of(value, factor * error, DIGITS),
         Some(_) => plain(value),
         None => format!("{} ± ?", plain(value)),
     };
