@@ -48,6 +48,29 @@ obstacle = { kind = 'plane', point = [0, '-1 mm'] }
 law = { kind = 'constraint', restitution = 0 }
 ";
 
+/// A box of 0.3 × 0.2 × 0.1 m that falls, tilted, on its four corners.
+const BOX: &str = "
+gravity = [0, 0, -9.81]
+run = { duration = 1 }
+output = { step = 0.01 }
+integrator = { kind = 'nonsmooth-generalized-alpha', step = 0.001 }
+[[body]]
+name = 'box'
+mass = 1
+inertia = { kind = 'box', size = [0.3, 0.2, 0.1] }
+position = [0, 0, 0.15]
+axis = [0.09970865087213879, -0.04997916927067833, 0.9937606691655043]
+across = [0.9950041652780258, 0, -0.09983341664682815]
+";
+
+/// Its corners in the fixed axes at the start.
+const CORNERS: [[f64; 3]; 4] = [
+    [-0.15473501645825702, -0.09737606757596272, 0.11031403087860295],
+    [-0.15373709821236461, 0.10237398450303055, 0.12025992719889506],
+    [0.14376623312515072, -0.09737606757596272, 0.0803640058845545],
+    [0.14476415137104312, 0.10237398450303055, 0.09030990220484661],
+];
+
 fn read(text: &str) -> Reading {
     parse(text.to_owned(), Path::new("case.toml"), &[]).unwrap()
 }
@@ -104,4 +127,29 @@ fn the_impulses_of_all_contacts_of_a_rod_that_falls_flat_are_its_momentum() {
     let found: f64 = run.events.impulses().map(|(_, impulse)| impulse).sum();
     // The trapezium rule over forces that vibrate.
     assert!((found / expected - 1.0).abs() < 3e-3, "{found} for {expected}");
+}
+
+/// Twelve rows with friction, six of which follow from the others: the box comes to rest on its face, bears its weight, m g, and has m g h/2 = 0.4905 J left.
+#[test]
+fn a_tilted_box_that_falls_on_its_corners_comes_to_rest() {
+    let contacts: String = CORNERS
+        .iter()
+        .enumerate()
+        .map(|(i, at)| {
+            format!(
+                "[[contact]]\nname = 'c{i}'\non = 'box'\nat = {at:?}\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\n\
+                 law = {{ kind = 'constraint', restitution = 0, friction = 0.3 }}\n"
+            )
+        })
+        .collect();
+    let run = integrate(&read(&format!("{BOX}{contacts}"))).unwrap();
+    assert_eq!(run.failure, None);
+    let trajectory = &run.trajectory;
+    let last = |name: &str| trajectory.extremes(trajectory.index(name).unwrap()).last;
+    let weight: f64 = (0..4).map(|i| last(&format!("c{i}.force"))).sum();
+    assert!((weight - 9.81).abs() < 1e-6, "{weight}");
+    assert!((last("energy.total") - 0.4905).abs() < 1e-6, "{}", last("energy.total"));
+    let energy: Vec<f64> = trajectory.values(trajectory.index("energy.total").unwrap()).collect();
+    let gained = energy.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0_f64, f64::max);
+    assert!(gained < 1e-9, "{gained:e}");
 }
