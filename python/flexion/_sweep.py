@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 
 from . import _core
-from ._case import Case, Stop
-from ._errors import Interrupted, SweepError, warn
+from ._case import Case, Stop, _raise
+from ._errors import SweepError, warn
 from ._progress import Progress
 from ._shown import html_table
 
@@ -190,10 +190,7 @@ def sweep(
             bar.close()
         result = Sweep(made.columns(place), None if folder is None else place)
     try:
-        if isinstance(raised, KeyboardInterrupt):
-            raise Interrupted("interrupted: `.result` has the rows that are kept", result) from raised
-        if raised is not None:
-            raise raised
+        _raise(raised, result)
     finally:
         # Its traceback holds this frame.
         del raised
