@@ -238,10 +238,6 @@ fn asked(words: &[String]) -> Option<Vec<Asked>> {
     let mut sound = true;
     for word in &names {
         let Place { folder, name, item } = place(word);
-        // A folder without a paper.toml says so.
-        let folder = folder.or_else(|| {
-            (!built_in_names().contains(&name) && Path::new(&name).is_dir()).then(|| name.clone().into())
-        });
         let read = folder.as_deref().map_or_else(|| built_in(&name), from_folder);
         match read {
             Ok(paper) => sound &= take(&mut out, folder, paper, item),
@@ -273,7 +269,8 @@ fn place(word: &str) -> Place {
     };
     let with_item = || word.rsplit_once('/').and_then(|(name, item)| of(name, Some(item)));
     of(word, None).or_else(with_item).unwrap_or_else(|| Place {
-        folder: None,
+        // A folder without a paper.toml says so.
+        folder: Path::new(word).is_dir().then(|| word.into()),
         name: word.to_owned(),
         item: None,
     })

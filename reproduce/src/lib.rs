@@ -9,6 +9,7 @@
 
 mod answer;
 mod check;
+mod command;
 mod compute;
 mod described;
 mod figure;

@@ -2,10 +2,11 @@
 
 use crate::answer::Answer;
 use crate::check::of_item;
+use crate::command::command;
 use crate::described::{As, Described, Item, ItemKind};
 use crate::figure::{curves, figure, points};
 use crate::html::Html;
-use crate::need::{Named, named, of_paper, runs};
+use crate::need::{named, of_paper, runs};
 use crate::rule::Ruled;
 use crate::shown::{plain, shown};
 use crate::table::filled;
@@ -577,43 +578,4 @@ fn run_details(
         out.raw("</details>");
     }
     out.raw("</details>");
-}
-
-/// The command that runs it.
-/// The command that repeats a run, and what it shows of it where that is not all.
-fn command(run: &Named, (name, place, item): (&str, &str, &str)) -> String {
-    let quoted = |word: &str| {
-        if word.contains([' ', '\'', '&', ';', '(']) {
-            format!("'{}'", word.replace('\'', "'\\''"))
-        } else {
-            word.to_owned()
-        }
-    };
-    let sets: Vec<String> =
-        run.key.set.iter().map(|set| format!(" --set '{}'", set.replace('\'', "\""))).collect();
-    let file = quoted(&format!("{place}/cases/{}.toml", run.key.case));
-    let built_in = crate::built_in_names().iter().any(|built| built == name);
-    let paper = quoted(&format!("{}/{item}", if built_in { name } else { place }));
-    // Speeds in units of their own, transverse frequencies and strain energies are what no command of a case asks for.
-    let within = |what: String| format!("flexion reproduce {paper}\n# {what} of {file}{}", sets.concat());
-    match (&run.modes, &run.energy) {
-        (Some(modes), _) if modes.transverse || modes.unit.is_some() => within(format!(
-            "{} {}frequencies at the speed {}",
-            modes.count,
-            if modes.transverse { "transverse " } else { "" },
-            crate::need::plain(&modes.speed)
-        )),
-        (Some(modes), _) => {
-            let speed = crate::need::plain(&modes.speed);
-            format!("flexion modes {file}{} --speed '{speed}' --count {}", sets.concat(), modes.count)
-        }
-        (_, Some(energy)) => {
-            let kind = format!("{:?}", energy.energy).to_lowercase();
-            let speed = crate::need::plain(&energy.speed);
-            let terms: Vec<String> = energy.terms.iter().map(|term| format!("{term:?}")).collect();
-            let terms = if terms.is_empty() { String::new() } else { format!(" with {}", terms.join(", ")) };
-            within(format!("frequencies by the {kind} strain energy{terms} at the speed {speed}"))
-        }
-        _ => format!("flexion run {file}{}", sets.concat()),
-    }
 }
