@@ -7,12 +7,12 @@
 //!
 //! Impulses add to W_d and D_c at once: a prescribed velocity that jumps, a moving obstacle, an impact.
 //!
-//! In each step the power is taken at two or three times, as a polynomial of time between them, and the polynomial is
+//! In each step the power is taken at one to three times, as a polynomial of time between them, and the polynomial is
 //! integrated: to the end of the step, and at no further cost to every recorded time inside it. With s from 0 to 1,
 //!
 //! | order of the method | s | order of the integral | evaluations of the power a step |
 //! |---|---|---|---|
-//! | up to 2 | 0, 1 (trapezium) | 2 | 1 |
+//! | up to 2 | ½ (means of the step) | 2 | 1 |
 //! | 3, 4 | 0, ½, 1 (Simpson) | 4 | 2 |
 //! | 5 | 0 (of no weight at the end), (4 ∓ √6)/10, 1 (Radau) | 5 | 3 |
 //!
@@ -20,15 +20,23 @@
 //! behind a jump; the end of a step takes the left limit. The balance closes to the order of the method (tested), and
 //! what is left is the error of the run: its truncation, and the numerical dissipation of methods that have some.
 //!
+//! Methods of order up to 2 take steps in which vibrations jump or decay, and the power at the ends of these tells nothing. What the forces of a step do is their impulse
+//! times its mean velocity v̄: the change of the kinetic energy. Dampers act by an impulse −hC w ([`Stepper::middle`](crate::integrator::Stepper::middle)), contacts of a nonsmooth method by that
+//! which it has found. Their work follows from the power P of dampers, a quadratic form,
+//!
+//! ```text
+//! h v̄ᵀC w = h (P(v̄) + ½ P(v̄ + ½δ) − ½ P(v̄ − ½δ)),   δ = w − v̄
+//! ```
+//!
 //! In [bursts](super::transient) the steps of a nonsmooth method follow contacts that chatter, and do not resolve the vibrations that impacts excite and dampers take
 //! within a step: the power at both ends of it is too large. Where the balance would leave more energy than there is, dampers have taken that much less.
 //!
-//! A nonsmooth method knows no time of an impact within its step. It counts at the end of the step, and so does what it loses:
-//! states recorded inside the step are those before the impact.
+//! A nonsmooth method knows no time of an impact within its step. It counts at the end of the step, and so does what the step does and loses:
+//! states recorded inside the step are those before the impact, to which the power of the step before belongs.
 
 use super::stiffness;
 use crate::integrator::{Checkpoint, Integration, NotResumed};
-use crate::system::{Energy, Power, State, System};
+use crate::system::{Energy, Power, RowWeights, Set, State, System};
 
 /// What has been done to a system and lost by it since the start, in joules.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -61,7 +69,7 @@ impl EnergyBalance {
 
 /// Most times in a step at which the power is taken.
 const MOST: usize = 4;
-const TRAPEZIUM: &[f64] = &[0.0, 1.0];
+const MIDDLE: &[f64] = &[0.5];
 const SIMPSON: &[f64] = &[0.0, 0.5, 1.0];
 /// 0, (4 − √6)/10, (4 + √6)/10, 1
 const RADAU: &[f64; MOST] = &[0.0, 0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
@@ -113,8 +121,7 @@ const WEIGHED: u64 = 100;
 /// Integrates the energy balance along a run.
 #[derive(Clone, Debug)]
 pub(super) struct Integral {
-    order: usize,
-    /// At the last accepted step, and the power there.
+    /// At the last accepted step, and the power there; of methods of order up to 2 the mean power of that step.
     balance: EnergyBalance,
     power: Power,
     /// At the end of the step that was entered; the power there.
@@ -122,13 +129,17 @@ pub(super) struct Integral {
     /// Times in the step that was entered, as fractions of it, and the power there.
     nodes: &'static [f64],
     powers: [Power; MOST],
+    /// Whether velocities jump at its end.
+    impact: bool,
     gain: Gain,
     /// In a burst, the imbalance at the last accepted step, and what dampers have taken less than by their power \[J\].
     burst: Option<[f64; 2]>,
     /// The latter in the step that was entered.
     less: f64,
-    /// Dense output.
+    /// Dense output, the velocities by which dampers act, and rates of rows.
     middle: State,
+    damped: Vec<f64>,
+    rates: Vec<f64>,
 }
 
 /// What decides whether a run has gained energy from nowhere.
@@ -164,24 +175,26 @@ impl Gain {
 }
 
 impl Integral {
-    /// Begins at the start of a run with a method of the given order.
-    pub(super) fn new(system: &mut dyn System, order: usize, state: &State) -> Integral {
+    /// Begins at the start of a run.
+    pub(super) fn new(system: &mut dyn System, state: &State) -> Integral {
         let (energy, power) = system.energy_and_power(state);
         let balance = EnergyBalance { initial: energy.total(), ..EnergyBalance::default() };
-        let (nodes, powers) = (TRAPEZIUM, [power; MOST]);
+        let (nodes, powers) = (MIDDLE, [power; MOST]);
         let gain = Gain { gravity: [energy.gravity; 2], ..Gain::default() };
         let end = (balance, power);
         Integral {
-            order,
             balance,
             power,
             end,
             nodes,
             powers,
+            impact: false,
             gain,
             burst: None,
             less: 0.0,
             middle: state.clone(),
+            damped: vec![0.0; state.v.len()],
+            rates: vec![0.0; state.lambda.len()],
         }
     }
 
@@ -202,53 +215,65 @@ impl Integral {
 
     /// At time `t`, inside the step from `from` to `to` that was entered.
     pub(super) fn until(&self, (from, to): (&State, &State), t: f64) -> EnergyBalance {
-        let h = to.t - from.t;
+        let (h, passed) = (to.t - from.t, t - from.t);
         let mut balance = self.balance;
-        if h > 0.0 {
-            let weights = weights(self.nodes, (t - from.t) / h);
-            for (weight, power) in weights.iter().zip(&self.powers).take(self.nodes.len()) {
-                balance.add(h * weight, power);
-            }
-            balance.dissipated -= self.less * (t - from.t) / h;
+        if self.impact {
+            balance.add(passed, &self.power);
+        } else if h > 0.0 {
+            self.add_powers(&mut balance, h, passed / h);
+            balance.dissipated -= self.less * passed / h;
         }
         balance
     }
 
-    /// Enters the accepted step from `from` to `to`, at the end of which impacts have `lost` an energy \[J\]. The energy itself is weighed
-    /// where a row is `recorded` in the step, and in every hundredth step.
+    /// Adds the part `s` of the step h that was entered.
+    fn add_powers(&self, balance: &mut EnergyBalance, h: f64, s: f64) {
+        let weights = weights(self.nodes, s);
+        for (weight, power) in weights.iter().zip(&self.powers).take(self.nodes.len()) {
+            balance.add(h * weight, power);
+        }
+    }
+
+    /// Enters the accepted step from `from` to `to`, in which contacts have `lost` an energy \[J\] that a nonsmooth method knows, at the end where it
+    /// has an `impact`. The energy itself is weighed where a row is `recorded` in the step, and in every hundredth step.
     pub(super) fn enter(
         &mut self,
         system: &mut dyn System,
         integrator: &Integration,
         (from, to): (&State, &State),
-        lost: f64,
+        (lost, impact): (Option<f64>, bool),
         recorded: bool,
     ) {
-        self.nodes = match self.order {
-            0..=2 => TRAPEZIUM,
-            3..=4 => SIMPSON,
-            _ => RADAU,
-        };
         let weighed = recorded || self.burst.is_some() || integrator.counters().steps.is_multiple_of(WEIGHED);
-        let (energy, at_end) = if weighed {
-            let (energy, power) = system.energy_and_power(to);
-            (Some(energy), power)
+        let order = integrator.info().order;
+        self.impact = impact;
+        let (energy, at_end) = if order <= 2 {
+            let mean = self.mean_power(system, integrator, (from, to), lost);
+            (self.nodes, self.powers[0]) = (MIDDLE, mean);
+            (weighed.then(|| system.energy(to)), mean)
         } else {
-            (None, system.power(to))
-        };
-        for (s, at) in self.nodes.iter().zip(&mut self.powers) {
-            *at = if *s == 0.0 {
-                self.power
-            } else if *s == 1.0 {
-                at_end
+            self.nodes = if order <= 4 { SIMPSON } else { RADAU };
+            let (energy, at_end) = if weighed {
+                let (energy, power) = system.energy_and_power(to);
+                (Some(energy), power)
             } else {
-                integrator.interpolate(system, from, to, from.t + s * (to.t - from.t), &mut self.middle);
-                system.power(&self.middle)
+                (None, system.power(to))
             };
-        }
+            for (s, at) in self.nodes.iter().zip(&mut self.powers) {
+                *at = if *s == 0.0 {
+                    self.power
+                } else if *s == 1.0 {
+                    at_end
+                } else {
+                    integrator.interpolate(system, from, to, from.t + s * (to.t - from.t), &mut self.middle);
+                    system.power(&self.middle)
+                };
+            }
+            (energy, at_end)
+        };
         self.less = 0.0;
-        let mut end = self.until((from, to), to.t);
-        end.contact += lost;
+        let mut end = self.balance;
+        self.add_powers(&mut end, to.t - from.t, 1.0);
         if let (Some([before, less]), Some(energy)) = (&mut self.burst, &energy) {
             let excess = end.imbalance(energy.total()) - *before;
             self.less = excess.clamp(0.0, (end.dissipated - self.balance.dissipated).max(0.0));
@@ -260,6 +285,30 @@ impl Integral {
         if let Some(energy) = energy {
             self.gain.enter(&energy, self.end.0.imbalance(energy.total()));
         }
+    }
+
+    /// Mean power in a step of a method of order up to 2.
+    fn mean_power(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &Integration,
+        (from, to): (&State, &State),
+        lost: Option<f64>,
+    ) -> Power {
+        let Integral { middle, damped, rates, .. } = self;
+        integrator.middle(system, from, to, middle, damped);
+        let mut power = system.power(middle);
+        if let Some(lost) = lost {
+            power.contact += lost / (to.t - from.t) - rubbing(system, middle, rates);
+        }
+        if power.dissipated != 0.0 && *damped != middle.v {
+            damped.iter_mut().zip(&middle.v).for_each(|(w, v)| *w -= v);
+            for (part, weight) in [(0.5, 0.5), (-1.0, -0.5)] {
+                middle.v.iter_mut().zip(damped.iter()).for_each(|(v, delta)| *v += part * delta);
+                power.dissipated += weight * system.power(middle).dissipated;
+            }
+        }
+        power
     }
 
     /// Ends the step: the next one begins at its end.
@@ -315,6 +364,17 @@ impl Integral {
     }
 }
 
+/// Power that rows of friction take.
+fn rubbing(system: &mut dyn System, s: &State, rates: &mut [f64]) -> f64 {
+    let rubs = |(set, force): (&Set, &f64)| matches!(set, Set::Friction { .. }) && *force != 0.0;
+    if !system.rows().iter().zip(&s.lambda).any(rubs) {
+        return 0.0;
+    }
+    system.constraint(s, RowWeights::VELOCITY, rates);
+    let rows = system.rows().iter().zip(&s.lambda).zip(rates);
+    rows.filter(|(row, _)| rubs(*row)).map(|((_, force), rate)| -force * *rate).sum()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -322,7 +382,7 @@ mod tests {
     /// Monomials up to one degree below the order, to the end of the step; and up to the number of nodes inside it.
     #[test]
     fn the_rules_have_their_orders() {
-        for (nodes, order) in [(TRAPEZIUM, 2), (SIMPSON, 4), (RADAU, 5), (&RADAU[1..], 5)] {
+        for (nodes, order) in [(MIDDLE, 2), (SIMPSON, 4), (RADAU, 5), (&RADAU[1..], 5)] {
             for (s, exact) in [(1.0, order), (0.3, nodes.len())] {
                 for k in 0..exact {
                     let weights = weights(nodes, s);

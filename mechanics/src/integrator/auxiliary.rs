@@ -6,7 +6,7 @@
 //! ```
 //!
 //! a is the acceleration at another time than q̈, aₙ ≈ q̈(tₙ + Δh) with Δ = αm − αf: where the step changes from h₀ to h, aₙ is
-//! replaced by q̈ₙ + (aₙ − q̈ₙ) h/h₀. With κ = (1 − αf)/(1 − αm) an increment Δq̈ₙ₊₁ moves v by hγκ Δq̈ and q by h²βκ Δq̈.
+//! replaced by q̈ₙ + (aₙ − q̈ₙ) h/h₀. Dampers act in vₙ₊₁ − vₙ by the velocity (1 − γ) wₙ + γ wₙ₊₁, with w to v as a to q̈. With κ = (1 − αf)/(1 − αm) an increment Δq̈ₙ₊₁ moves v by hγκ Δq̈ and q by h²βκ Δq̈.
 
 use super::{Checkpoint, NotResumed};
 
@@ -37,11 +37,16 @@ pub(super) struct Auxiliary {
     pub(super) parameters: Parameters,
     pub(super) a: Vec<f64>,
     steps: [f64; 2],
+    /// wₙ, vₙ as the forces of the smooth motion see it, and the velocity by which dampers act in the accepted step.
+    w: Vec<f64>,
+    v: Vec<f64>,
+    pub(super) damped: Vec<f64>,
 }
 
 impl Auxiliary {
     pub(super) fn new(parameters: Parameters, n: usize) -> Auxiliary {
-        Auxiliary { parameters, a: vec![0.0; n], steps: [0.0; 2] }
+        let zeros = || vec![0.0; n];
+        Auxiliary { parameters, a: zeros(), steps: [0.0; 2], w: zeros(), v: zeros(), damped: zeros() }
     }
 
     /// The formulas of an attempt of size `h`.
@@ -64,29 +69,41 @@ impl Auxiliary {
         }
     }
 
-    /// Accepts the attempt with q̈ₙ and q̈ₙ₊₁.
-    pub(super) fn accept(&mut self, start: &[f64], end: &[f64]) {
+    /// Accepts the attempt with q̈ₙ and q̈ₙ₊₁, whose forces see the velocity `v`.
+    pub(super) fn accept(&mut self, start: &[f64], end: &[f64], v: &[f64]) {
         let formulas = self.formulas();
         for ((a, start), end) in self.a.iter_mut().zip(start).zip(end) {
             *a = formulas.next(formulas.lagging(*a, *start), *start, *end);
         }
+        let gamma = self.parameters.gamma;
+        for (i, end) in v.iter().enumerate() {
+            let (start, w) = (self.v[i], formulas.lagging(self.w[i], self.v[i]));
+            self.w[i] = formulas.next(w, start, *end);
+            self.damped[i] = (1.0 - gamma) * w + gamma * self.w[i];
+            self.v[i] = *end;
+        }
         self.steps[0] = self.steps[1];
     }
 
-    /// Begins anew with the accelerations `a`.
-    pub(super) fn restart(&mut self, a: &[f64]) {
+    /// Begins anew with the accelerations `a` and velocities `v`.
+    pub(super) fn restart(&mut self, a: &[f64], v: &[f64]) {
         self.a.copy_from_slice(a);
+        [&mut self.w, &mut self.v, &mut self.damped].into_iter().for_each(|list| list.copy_from_slice(v));
         self.steps = [0.0; 2];
     }
 
     pub(super) fn save(&self, out: &mut Checkpoint) {
         out.put("auxiliary", &self.a);
         out.put("auxiliary.step", &self.steps[..1]);
+        out.put("auxiliary.w", &self.w);
+        out.put("auxiliary.v", &self.v);
     }
 
     pub(super) fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
         from.fill("auxiliary", &mut self.a)?;
-        from.fill("auxiliary.step", &mut self.steps[..1])
+        from.fill("auxiliary.step", &mut self.steps[..1])?;
+        from.fill("auxiliary.w", &mut self.w)?;
+        from.fill("auxiliary.v", &mut self.v)
     }
 }
 

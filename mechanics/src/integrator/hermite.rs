@@ -117,6 +117,23 @@ pub(super) fn linear(from: &State, to: &State, t: f64, out: &mut State) {
     finish(from, to, s, t, out);
 }
 
+/// Writes the middle of a step with its mean velocities, accelerations and multipliers; `increment` is D.
+pub(super) fn middle(system: &dyn Dynamics, from: &State, to: &State, increment: &[f64], out: &mut State) {
+    out.a.iter_mut().zip(increment).for_each(|(half, d)| *half = 0.5 * d);
+    system.retract(&from.q, &out.a, &mut out.q);
+    means(from, to, out);
+}
+
+/// Writes all but the configuration of the middle of a step.
+pub(super) fn means(from: &State, to: &State, out: &mut State) {
+    let h = to.t - from.t;
+    for i in 0..out.v.len() {
+        out.v[i] = 0.5 * (from.v[i] + to.v[i]);
+        out.a[i] = (to.v[i] - from.v[i]) / h;
+    }
+    finish(from, to, 0.5, from.t + 0.5 * h, out);
+}
+
 /// Values, first and second derivatives at s of the quintics that take, one each and of the others nothing, the value
 /// at 1, the slopes at 0 and 1, and the second derivatives at 0 and 1.
 fn quintic_weights(s: f64) -> [[f64; 5]; 3] {

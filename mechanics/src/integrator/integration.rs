@@ -91,6 +91,18 @@ impl Integration {
         self.stepper.interpolate(system, from, to, t, out);
     }
 
+    /// The accepted step between `from` and `to` as its [energy balance](Stepper::middle) sees it.
+    pub(crate) fn middle(
+        &self,
+        system: &dyn Dynamics,
+        from: &State,
+        to: &State,
+        out: &mut State,
+        damped: &mut [f64],
+    ) {
+        self.stepper.middle(system, from, to, out, damped);
+    }
+
     /// Forgets the history after a discontinuity; completes `state`, from now on its right limit, with consistent accelerations
     /// and multipliers.
     ///

@@ -307,6 +307,14 @@ pub trait Stepper: Send {
     /// The solution at time `t` inside the last accepted step.
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State);
 
+    /// The accepted step as its energy balance sees it, for methods of order 1 and 2: `out` has the mean velocities, accelerations and
+    /// multipliers, so that its power is the mean power of the forces that the method applies, and `damped` the velocities by which it applies those of
+    /// dampers.
+    fn middle(&self, system: &dyn Dynamics, from: &State, to: &State, out: &mut State, damped: &mut [f64]) {
+        self.interpolate(system, from, to, 0.5 * (from.t + to.t), out);
+        damped.copy_from_slice(&out.v);
+    }
+
     /// Forgets the history; completes `state` with consistent accelerations and multipliers.
     ///
     /// # Errors

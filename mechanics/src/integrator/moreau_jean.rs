@@ -249,6 +249,18 @@ impl Stepper for MoreauSteps {
         hermite::linear(from, to, t, out);
     }
 
+    fn middle(&self, system: &dyn Dynamics, from: &State, to: &State, out: &mut State, damped: &mut [f64]) {
+        let (h, theta) = (to.t - from.t, self.theta);
+        for (i, w) in damped.iter_mut().enumerate() {
+            *w = (1.0 - theta) * from.v[i] + theta * to.v[i];
+            out.a[i] = theta * h * *w;
+        }
+        system.retract(&from.q, &out.a, &mut out.q);
+        hermite::means(from, to, out);
+        out.t = from.t + theta * h;
+        out.lambda.copy_from_slice(&to.lambda);
+    }
+
     /// Impulses decide about contacts, not modes.
     fn restart(
         &mut self,

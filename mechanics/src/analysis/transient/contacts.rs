@@ -151,26 +151,21 @@ impl Contacts {
 }
 
 /// Energy \[J\] that contacts have taken in a step of a nonsmooth method, −½ hλ (ġ₀ + ġ₁) for a normal impulse and likewise
-/// for friction: in a step without impact it is a part of the error of the step. Also that part of it which the trapezium
-/// rule over the power of friction has, −½ h (λ₀ġ₀ + λ₁ġ₁).
-pub(super) fn loss(system: &mut dyn System, from: &State, to: &State, rates: &mut [f64]) -> [f64; 2] {
+/// for friction: in a step without impact it is a part of the error of the step.
+pub(super) fn loss(system: &mut dyn System, from: &State, to: &State, rates: &mut [f64]) -> f64 {
     let half = 0.5 * (to.t - from.t);
-    let [mut lost, mut counted] = [0.0; 2];
-    let of_contacts =
-        |i: usize, sets: &[Set]| sets[i] != Set::Free && (to.lambda[i] != 0.0 || from.lambda[i] != 0.0);
+    let mut lost = 0.0;
+    let of_contacts = |i: usize, sets: &[Set]| sets[i] != Set::Free && to.lambda[i] != 0.0;
     if !(0..rates.len()).any(|i| of_contacts(i, system.rows())) {
-        return [0.0; 2];
+        return 0.0;
     }
     for s in [from, to] {
         system.constraint(s, RowWeights::VELOCITY, rates);
         for (i, rate) in rates.iter().enumerate().filter(|(i, _)| of_contacts(*i, system.rows())) {
-            if matches!(system.rows()[i], Set::Friction { .. }) {
-                counted -= half * s.lambda[i] * rate;
-            }
             lost -= half * to.lambda[i] * rate;
         }
     }
-    [lost, counted]
+    lost
 }
 
 /// What a step of a nonsmooth method did: an impact where contacts begin to press, and that contacts cease to. The
@@ -203,7 +198,7 @@ pub(super) fn struck(system: &mut dyn System, from: &State, to: &State, rates: &
     if !impact {
         return Some(Event { time: to.t, kind: EventKind::Switch, modes });
     }
-    let [lost, _] = loss(system, from, to, rates);
+    let lost = loss(system, from, to, rates);
     system.constraint(to, RowWeights::VELOCITY, rates);
     let after = rates.to_vec();
     system.constraint(from, RowWeights::VELOCITY, rates);

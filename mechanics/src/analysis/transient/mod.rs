@@ -174,8 +174,7 @@ impl Run {
         let started = integrator.start(system, state, step);
         let integration = started.map_err(|error| failed(system, state, error))?;
         self.set_control(system, integrator.info(), state, plan);
-        let order = integrator.info().order;
-        self.balance = observer.wants_energy_balance().then(|| Integral::new(system, order, state));
+        self.balance = observer.wants_energy_balance().then(|| Integral::new(system, state));
         let balance = self.balance.as_ref().map(Integral::balance);
         observer.sample(system, state, &Step { balance, ..self.last });
         Ok(integration)
@@ -281,17 +280,9 @@ impl Run {
             let impact = struck.as_ref().is_some_and(|event| matches!(event.kind, EventKind::Impact { .. }));
             let (sample, slack) = self.next_sample(plan);
             if let Some(balance) = &mut self.balance {
-                let mut at_end = 0.0;
-                if resolves {
-                    let [lost, counted] = loss(system, state, &next, &mut self.gaps);
-                    if impact {
-                        at_end = lost - counted;
-                    } else {
-                        balance.add_impulse(0.0, lost - counted);
-                    }
-                }
+                let lost = resolves.then(|| loss(system, state, &next, &mut self.gaps));
                 let recorded = next.t >= sample - slack;
-                balance.enter(system, integrator, (state, &next), at_end, recorded);
+                balance.enter(system, integrator, (state, &next), (lost, impact), recorded);
             }
             let at_break = jump_at(system, integrator.info(), next.t);
             let ends = event || at_break.is_some() || next.t >= plan.end;

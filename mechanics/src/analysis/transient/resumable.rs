@@ -111,7 +111,7 @@ impl Run {
             contacts.recall(from.numbers("contacts")?);
         }
         if observer.wants_energy_balance() {
-            let mut balance = Integral::new(system, integrator.info().order, state);
+            let mut balance = Integral::new(system, state);
             balance.recall(from)?;
             self.balance = Some(balance);
         }

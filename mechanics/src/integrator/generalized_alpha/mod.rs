@@ -451,6 +451,11 @@ impl AlphaSteps {
     pub(in crate::integrator) fn increment(&self) -> &[f64] {
         &self.d
     }
+
+    /// Velocity by which dampers act in the accepted step.
+    pub(in crate::integrator) fn damped(&self) -> &[f64] {
+        &self.auxiliary.damped
+    }
 }
 
 impl Stepper for AlphaSteps {
@@ -471,11 +476,11 @@ impl Stepper for AlphaSteps {
         self.line = self.euler > 0;
         if self.euler > 0 {
             self.euler -= 1;
-            self.auxiliary.restart(&to.a);
+            self.auxiliary.restart(&to.a, &to.v);
             self.kept.forget(false);
             return;
         }
-        self.auxiliary.accept(&from.a, &to.a);
+        self.auxiliary.accept(&from.a, &to.a, &to.v);
         let Trend { before, earlier, known } = &mut self.trend;
         std::mem::swap(before, earlier);
         before.copy_from_slice(&from.a);
@@ -487,6 +492,14 @@ impl Stepper for AlphaSteps {
             true => hermite::line(system, from, to, &self.d, t, out),
             false => hermite::cubic(system, from, to, &self.d, t, out),
         }
+    }
+
+    fn middle(&self, system: &dyn Dynamics, from: &State, to: &State, out: &mut State, damped: &mut [f64]) {
+        hermite::middle(system, from, to, &self.d, out);
+        if self.line {
+            out.lambda.copy_from_slice(&to.lambda);
+        }
+        damped.copy_from_slice(&self.auxiliary.damped);
     }
 
     fn restart(
@@ -501,7 +514,7 @@ impl Stepper for AlphaSteps {
         self.kept.forget(false);
         (self.renewals, self.begins, self.euler, self.struck) = (0, true, 0, 0);
         self.equations.complete(system, state, counters)?;
-        self.auxiliary.restart(&state.a);
+        self.auxiliary.restart(&state.a, &state.v);
         Ok(())
     }
 

@@ -44,8 +44,8 @@ impl Coupled {
         }
     }
 
-    pub(super) fn accept(&mut self, from: &State, smooth: &State) {
-        self.auxiliary.accept(&from.a, &smooth.a);
+    pub(super) fn accept(&mut self, from: &State, smooth: &State, to: &State) {
+        self.auxiliary.accept(&from.a, &smooth.a, &to.v);
         std::mem::swap(&mut self.d, &mut self.accepted);
     }
 
@@ -56,7 +56,7 @@ impl Coupled {
         counters: &mut Counters,
     ) -> Result<(), StepError> {
         self.accelerations.complete(system, state, (state.t, 0.0), counters)?;
-        self.auxiliary.restart(&state.a);
+        self.auxiliary.restart(&state.a, &state.v);
         Ok(())
     }
 }

@@ -113,6 +113,9 @@ struct Work {
     correction: Vec<f64>,
     uncorrected: Cell<Vec<f64>>,
     forces: Vec<f64>,
+    /// Multipliers of the smooth motion at the start of the next step, and the mean ones of the accepted step.
+    held: Vec<f64>,
+    mean: Vec<f64>,
     rhs: Vec<f64>,
     gaps: Vec<f64>,
     rates: Vec<f64>,
@@ -164,6 +167,8 @@ impl Work {
             correction: zeros(n),
             uncorrected: Cell::new(zeros(state().q.len())),
             forces: zeros(m),
+            held: zeros(m),
+            mean: zeros(m),
             rhs: zeros(n + m),
             gaps: zeros(m),
             rates: zeros(m),
@@ -334,13 +339,17 @@ impl Stepper for NonsmoothSteps {
         }
     }
 
-    fn accept(&mut self, _from: &State, _to: &State) {
-        let Work { from, smooth, .. } = &mut self.work;
+    fn accept(&mut self, _from: &State, to: &State) {
+        let Work { from, smooth, held, mean, .. } = &mut self.work;
         match &mut self.scheme {
-            Scheme::Coupled(coupled) => coupled.accept(from, smooth),
+            Scheme::Coupled(coupled) => coupled.accept(from, smooth, to),
             Scheme::Decoupled(steps) => steps.accept(from, smooth),
         }
         from.a.copy_from_slice(&smooth.a);
+        for k in 0..mean.len() {
+            mean[k] = to.lambda[k] + 0.5 * (held[k] - smooth.lambda[k]);
+        }
+        held.copy_from_slice(&smooth.lambda);
     }
 
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
@@ -364,6 +373,23 @@ impl Stepper for NonsmoothSteps {
         }
     }
 
+    /// Impulses act over the whole step, and see dampers as the change of velocity that they make.
+    fn middle(&self, system: &dyn Dynamics, from: &State, to: &State, out: &mut State, damped: &mut [f64]) {
+        match &self.scheme {
+            Scheme::Coupled(coupled) => {
+                hermite::middle(system, from, to, &coupled.accepted, out);
+                damped.copy_from_slice(&coupled.auxiliary.damped);
+            }
+            Scheme::Decoupled(smooth) => {
+                hermite::middle(system, from, to, smooth.increment(), out);
+                for (i, w) in damped.iter_mut().enumerate() {
+                    *w = smooth.damped()[i] + to.v[i] - self.work.smooth.v[i];
+                }
+            }
+        }
+        out.lambda.copy_from_slice(&self.work.mean);
+    }
+
     fn restart(
         &mut self,
         system: &mut dyn Dynamics,
@@ -376,6 +402,7 @@ impl Stepper for NonsmoothSteps {
             Scheme::Decoupled(smooth) => smooth.restart(system, state, counters)?,
         }
         self.work.from.copy_from(state);
+        self.work.held.copy_from_slice(&state.lambda);
         Ok(())
     }
 
@@ -386,6 +413,7 @@ impl Stepper for NonsmoothSteps {
         }
         out.put("corrections.convergence", &self.work.convergence.memory());
         out.put("smooth.a", &self.work.from.a);
+        out.put("smooth.lambda", &self.work.held);
     }
 
     fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
@@ -394,6 +422,7 @@ impl Stepper for NonsmoothSteps {
             Scheme::Decoupled(smooth) => smooth.resume(system, from)?,
         }
         self.work.convergence.recall(from.numbers("corrections.convergence")?);
-        from.fill("smooth.a", &mut self.work.from.a)
+        from.fill("smooth.a", &mut self.work.from.a)?;
+        from.fill("smooth.lambda", &mut self.work.held)
     }
 }
