@@ -549,3 +549,42 @@ step = 0.005
     let time = 2.0 * 0.3 * v / (b * 0.7);
     assert!(v > 1e-5 && (neglected.time / time - 1.0).abs() < 1e-3, "{neglected:?} for {time:e}");
 }
+
+/// A ball at rest on an inclined belt, along whose plane the belt goes: that rounding makes the belt rise with 10⁻¹⁶ of its speed is no closing speed. One that does rise
+/// is refused.
+#[test]
+fn a_closing_speed_that_is_rounding_is_none() {
+    let case = |belt: &str| {
+        format!(
+            "
+gravity = [0, 0, -9.81]
+run = {{ duration = 0.02 }}
+output = {{ step = '10 ms' }}
+integrator = {{ kind = 'moreau-jean', step = 0.001 }}
+[[body]]
+name = 'b'
+mass = 2
+inertia = {{ kind = 'sphere', radius = 0.1 }}
+position = [0, 0, 0]
+[[contact]]
+name = 'k'
+on = 'b'
+obstacle = {{ kind = 'plane', normal = [0.1, 0.2, 0.7], motion = {{ displacement = {belt}, amplitude = {{ kind = 'expression', formula = '30*t' }} }} }}
+law = {{ kind = 'constraint', restitution = 0, friction = 0.2 }}
+"
+        )
+    };
+    for belt in [
+        "[0.7, 0, -0.1]",
+        "[-0.7, 0, 0.1]",
+        "[0, 0.7, -0.2]",
+        "[0, -0.7, 0.2]",
+        "[0.6, 0.4, -0.2]",
+        "[-0.6, -0.4, 0.2]",
+    ] {
+        let run = finished(&reading(&case(belt), &[]));
+        assert!(run.trajectory.column("energy.drive").unwrap().last().unwrap() > &0.01, "{belt}");
+    }
+    let refused = reading(&case("[0.7, 0, -0.0999]"), &[]).prepare().err().unwrap().render(false);
+    assert!(refused.contains("touches at the start and closes"), "{refused}");
+}

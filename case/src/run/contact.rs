@@ -28,7 +28,8 @@ impl Reading {
         let at_rest = !matches!(self.case.initial, Initial::Undeformed);
         let fastest = system.fastest(&state.v);
         for (touch, key) in system.contacts(state).iter().zip(self.case.contact_keys()) {
-            let ContactInfo { name, row, gap, rate, .. } = touch;
+            let ContactInfo { name, row, gap, rate, speed, .. } = touch;
+            let still = STILL * fastest.max(*speed);
             if at_rest && row.is_none() {
                 continue;
             }
@@ -40,7 +41,7 @@ impl Reading {
                 return Err(self.problem(&format!("{key}.obstacle"), message));
             }
             if row.is_some_and(|row| state.mode[row] == Mode::Closed) {
-                if rate.abs() > STILL * fastest {
+                if rate.abs() > still {
                     let message = format!(
                         "the equilibrium presses on the obstacle of the contact `{name}`, which it leaves or enters with {:.3e} m/s: \
                          what rests on it must move with it",
@@ -50,7 +51,7 @@ impl Reading {
                 }
                 continue;
             }
-            if *gap <= tolerance && *rate < 0.0 && state.t == 0.0 {
+            if *gap <= tolerance && *rate < -still && state.t == 0.0 {
                 let message = format!(
                     "the contact `{name}` touches at the start and closes with {:.3e} m/s: begin with a gap, or at rest",
                     -rate

@@ -123,6 +123,10 @@ pub struct ContactInfo {
     pub gap: f64,
     /// Its rate ġ \[m/s\].
     pub rate: f64,
+    /// Speeds of the point and of the obstacle, summed, by whose rounding the rate is off [m/s].
+    pub speed: f64,
+    /// Whether the obstacle is a half-space, through which no way leads.
+    pub flat: bool,
 }
 
 /// What presses at a contact.

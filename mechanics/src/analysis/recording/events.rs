@@ -427,7 +427,7 @@ mod tests {
 
     fn touch(name: &str, row: Option<usize>, indicator: Option<usize>) -> ContactInfo {
         let friction = row.map_or(0..0, |row| row + 1..row + 2);
-        ContactInfo { name: name.into(), row, friction, indicator, gap: 1.0, rate: 0.0 }
+        ContactInfo { name: name.into(), row, friction, indicator, gap: 1.0, ..ContactInfo::default() }
     }
 
     /// The entry in a line.

@@ -80,7 +80,9 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             };
             let (gap, rate) = (near.surface.gap, near.rate);
             let name = placed.contact.name.clone();
-            all.push(ContactInfo { name, row, friction: placed.friction.clone(), indicator, gap, rate });
+            let speed = near.motion.velocity.norm() + near.surface.velocity.norm();
+            let (friction, flat) = (placed.friction.clone(), near.surface.curvatures == [0.0; 2]);
+            all.push(ContactInfo { name, row, friction, indicator, gap, rate, speed, flat });
         });
         all
     }
