@@ -19,6 +19,8 @@ const RESTING: f64 = 1e-5;
 const MOST_EVENTS: usize = 1000;
 /// Part of the closing speed above which a contact rebounds in a step of a nonsmooth method.
 const REBOUND: f64 = 1e-6;
+/// Parts of a step, each of half an [`ARC`], at whose ends the gap to a half-space is looked at, at most.
+const MOST_PARTS: f64 = 64.0;
 /// Part of an attempted step below which an event follows the one before at once.
 const SHORT: f64 = 1e-6;
 
@@ -232,22 +234,34 @@ pub(super) struct Unseen {
     /// Rows whose gap has become negative in a step without force.
     entered: Vec<bool>,
     accelerations: Vec<f64>,
+    /// Rows of contacts with half-spaces, through which no way leads: what dips into one and leaves it again without force within rounding of
+    /// the method, at the ends of steps, has not passed through.
+    flat: Vec<bool>,
 }
 
 impl Unseen {
     /// For systems with contacts.
-    pub(super) fn new(system: &dyn System) -> Option<Unseen> {
-        let zeros = || vec![0.0; system.rows().len()];
+    pub(super) fn new(system: &mut dyn System, state: &State) -> Option<Unseen> {
+        let rows = system.rows().len();
+        let zeros = || vec![0.0; rows];
         let contacts = system.rows().iter().any(|set| matches!(set, Set::Unilateral { .. }));
-        contacts.then(|| Unseen {
+        if !contacts {
+            return None;
+        }
+        let mut flat = vec![false; rows];
+        let planes =
+            system.contacts(state).into_iter().filter(|touch| touch.flat).filter_map(|touch| touch.row);
+        planes.for_each(|row| flat[row] = true);
+        Some(Unseen {
+            flat,
             values: [(); 2].map(|()| [zeros(), zeros()]),
-            entered: vec![false; system.rows().len()],
+            entered: vec![false; rows],
             accelerations: zeros(),
         })
     }
 
     /// The row of a contact whose gap has fallen and risen in a step without force, and was negative between, as the gaps `within`
-    /// the step say, or may have been: more sharply than the accelerations at both ends tell, or over an [`ARC`] on which its ends tell
+    /// the step say, or may have been, if its obstacle is no half-space: more sharply than the accelerations at both ends tell, or over an [`ARC`] on which its ends tell
     /// nothing. Also of one that was negative at the ends of steps before, all of them without force.
     pub(super) fn find(
         &mut self,
@@ -260,7 +274,7 @@ impl Unseen {
             system.constraint(s, RowWeights::VELOCITY, rate);
         }
         let h = to.t - from.t;
-        let turns = h * system.turning(from).min(system.turning(to)) > ARC;
+        let arc = h * system.turning(from).min(system.turning(to));
         let at = |k: usize, i: usize| self.values[k].each_ref().map(|x| x[i]);
         for i in 0..self.accelerations.len() {
             let free = |s: &State| s.lambda[i].max(0.0) == 0.0;
@@ -268,14 +282,25 @@ impl Unseen {
             let contact = matches!(system.rows()[i], Set::Unilateral { .. });
             let entered = self.entered[i] && free(to);
             self.entered[i] = contact && g1 < 0.0 && (entered || free(from) && free(to) && g0 > 0.0);
-            if entered && g1 > 0.0 {
+            if entered && g1 > 0.0 && !self.flat[i] {
                 return Some(i);
             }
             if !(contact && free(from) && free(to) && g0 > 0.0 && g1 > 0.0) {
                 continue;
             }
-            if turns {
+            if arc > ARC && !self.flat[i] {
                 return Some(i);
+            }
+            if arc > ARC {
+                let parts = (2.0 * arc / ARC).ceil().min(MOST_PARTS);
+                let mut dips = |k: usize| {
+                    within(system, from.t + h * k as f64 / parts, &mut self.accelerations);
+                    self.accelerations[i] < 0.0
+                };
+                if (1..parts as usize).any(&mut dips) {
+                    return Some(i);
+                }
+                continue;
             }
             let Some(lows) = lowest((0.0, [g0, v0]), (h, [g1, v1])) else { continue };
             let negative = |low: f64| {
@@ -290,7 +315,8 @@ impl Unseen {
                 system.constraint(s, RowWeights::ACCELERATION, accelerations);
                 h * accelerations[i] < 0.5 * (v1 - v0)
             };
-            if g0 + meet * v0 <= 0.0
+            if !self.flat[i]
+                && g0 + meet * v0 <= 0.0
                 && sharp(from, system, &mut self.accelerations)
                 && sharp(to, system, &mut self.accelerations)
             {

@@ -140,7 +140,7 @@ impl Run {
             control: None,
             balance: None,
             contacts,
-            unseen: Unseen::new(system),
+            unseen: Unseen::new(system, state),
             within: Gauss::new(3),
             middle: state.clone(),
             gaps: vec![0.0; state.lambda.len()],
