@@ -124,9 +124,10 @@ pub(super) fn case(v: &mut Values, files: &Files<'_>, signals: &Signals) -> Made
     match parts() {
         Some(case) if found.0.0.is_empty() => Ok(case),
         _ => {
-            if let (Some(fault), Some(caution)) = (found.0.0.first_mut(), suspected(&cautions.take())) {
-                let help = fault.help.take().map_or_else(String::new, |help| format!("{help}; "));
-                fault.help = Some(format!("{help}{caution}"));
+            // What has an advice of its own, as a name that is unknown, is another matter.
+            let unexplained = found.0.0.iter_mut().find(|fault| fault.help.is_none());
+            if let (Some(fault), Some(caution)) = (unexplained, suspected(&cautions.take())) {
+                fault.help = Some(caution);
             }
             Err(found.0)
         }

@@ -55,7 +55,7 @@ fn modes_of(set: &[&str], speed: f64, free: bool, count: usize) -> Vec<Mode> {
     if free {
         state.q = system.initial().q;
     }
-    rotate(system.as_mut(), &mut state, 0.0, speed).unwrap();
+    rotate(system.as_mut(), &mut state, 0.0, speed, &mut || true).unwrap();
     if free {
         system.hold(false);
         state.v = system.initial().v;

@@ -7,7 +7,8 @@ use flexion::analysis::modes::Mode;
 use flexion_case::{DiagramRequest, ModesRequest, Reading, parse};
 use flexion_results::{Frequencies, Units};
 use std::f64::consts::PI;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Length, radius, modulus, density.
 const SHAFT: [f64; 4] = [2.0, 0.05, 210e9, 7850.0];
@@ -197,4 +198,27 @@ fn the_branches_of_shafts_that_are_free_to_turn_are_their_whirls() {
 /// Frequencies [rad/s] at all speeds.
 fn frequencies(branch: &Branch) -> Vec<f64> {
     branch.points.iter().map(|point| point.mode.frequency()).collect()
+}
+
+/// A rotation that is far beyond what the beam stands is searched by many levels of the loads, which are counted and can be stopped.
+#[test]
+fn the_search_for_a_steady_rotation_can_be_stopped() {
+    let file = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../verification/space_air_bearing/case.toml");
+    let heavy = ["beam[1].section.density=100000".to_owned()];
+    let reading = parse(std::fs::read_to_string(&file).unwrap(), &file, &heavy)
+        .unwrap_or_else(|problems| panic!("{problems}"));
+    let asked = AtomicUsize::new(0);
+    let request = DiagramRequest {
+        speeds: vec![0.0, 1e4, 2e4],
+        count: 4,
+        revolutions: 0,
+        margin: 5.0,
+        free_hub: false,
+        threads: 1,
+        units: Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS },
+    };
+    let found = reading.campbell(&request, &|_| asked.fetch_add(1, Ordering::Relaxed) < 20).unwrap();
+    assert!(asked.into_inner() < 24, "it ends where it is told to");
+    assert_eq!(found.campbell.speeds, [0.0], "what was found is kept");
+    assert!(found.incomplete.iter().any(|why| why.contains("stopped")), "{:?}", found.incomplete);
 }

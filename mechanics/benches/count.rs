@@ -32,7 +32,7 @@ fn main() {
     } else if integrator == "modes" {
         let mut system = spin_up::system(coupling, elements);
         let mut state = system.initial();
-        rotate(system.as_mut(), &mut state, 0.0, 4.0).unwrap();
+        rotate(system.as_mut(), &mut state, 0.0, 4.0, &mut || true).unwrap();
         for _ in 0..steps {
             black_box(modes(system.as_mut(), &state, 10, &[]).unwrap());
         }

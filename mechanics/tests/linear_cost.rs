@@ -57,7 +57,7 @@ fn the_solutions_that_ten_modes_take_do_not_grow_with_the_elements() {
         let solutions = |elements: usize| {
             let mut system = spin_up::system("first", elements);
             let mut state = system.initial();
-            rotate(system.as_mut(), &mut state, 0.0, speed).unwrap();
+            rotate(system.as_mut(), &mut state, 0.0, speed, &mut || true).unwrap();
             let found = modes(system.as_mut(), &state, 10, &[]).unwrap();
             assert_eq!(found.counted, Some(10), "{elements} elements at {speed} rad/s");
             found.solutions

@@ -23,37 +23,39 @@ pub fn campbell(
     threads: usize,
     progress: &(dyn Fn(usize) -> bool + Sync),
 ) -> Result<Campbell, NoCampbell> {
-    let stop = AtomicBool::new(false);
-    let next = |done: usize| {
-        if !progress(done) {
+    let (stop, done) = (AtomicBool::new(false), AtomicUsize::new(0));
+    let next = |solved: usize| {
+        if !progress(solved + done.fetch_add(solved, Ordering::Relaxed)) {
             stop.store(true, Ordering::Relaxed);
         }
         !stop.load(Ordering::Relaxed)
     };
-    let (mut speeds, blocks) = computed(system, plan, threads, &next)?;
-    let mut diagram = assemble(&mut speeds, blocks, || next(plan.speeds.len()))?;
-    if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1 && next(plan.speeds.len())) {
+    let (one, again) = (|| next(1), || next(0));
+    let (mut speeds, blocks) = computed(system, plan, threads, [&one, &again])?;
+    let mut diagram = assemble(&mut speeds, blocks, again)?;
+    if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1 && again()) {
         let plan = Plan { speeds: diagram.speeds.clone(), ..plan.clone() };
-        let (_, blocks) = computed(finer, &plan, threads, &|_| next(plan.speeds.len()))?;
+        let (_, blocks) = computed(finer, &plan, threads, [&again, &again])?;
         diagram.compare(blocks.iter().flat_map(Block::modes), safety);
         diagram.unestimated = blocks.iter().find_map(Block::failure).cloned();
     }
     Ok(diagram)
 }
 
-/// The modes at all speeds, and the system that found them.
+/// The modes at all speeds, and the system that found them. Whether it goes on is asked by `solved` behind every speed, and by `again` while one is
+/// searched.
 fn computed<'p>(
     system: Box<dyn Fork>,
     plan: &'p Plan,
     threads: usize,
-    progress: &(dyn Fn(usize) -> bool + Sync),
+    [solved, again]: [&'p (dyn Fn() -> bool + Sync); 2],
 ) -> Result<(Speeds<'p>, Vec<Block>), NoCampbell> {
     let count = Speeds::blocks(plan);
     let threads = match threads {
         0 => thread::available_parallelism().map_or(1, usize::from),
         n => n,
     };
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let next = AtomicUsize::new(0);
     // Nothing is computed beyond a block that ends.
     let end = AtomicUsize::new(count);
     let blocks: Vec<Mutex<Option<Block>>> = (0..count).map(|_| Mutex::new(None)).collect();
@@ -63,7 +65,7 @@ fn computed<'p>(
             let Some(slot) = blocks.get(number).filter(|_| number < end.load(Ordering::Relaxed)) else {
                 return;
             };
-            let block = speeds.block(number, || progress(1 + done.fetch_add(1, Ordering::Relaxed)));
+            let block = speeds.block(number, solved);
             if block.ends() {
                 end.fetch_min(number, Ordering::Relaxed);
             }
@@ -72,9 +74,9 @@ fn computed<'p>(
             }
         }
     };
-    let forks = (1..threads.min(count)).map(|_| Speeds::new(system.fork(), plan));
+    let forks = (1..threads.min(count)).map(|_| Speeds::new(system.fork(), plan, again));
     let others = forks.collect::<Result<Vec<_>, _>>()?;
-    let mut speeds = Speeds::new(system, plan)?;
+    let mut speeds = Speeds::new(system, plan, again)?;
     thread::scope(|scope| {
         let work = &work;
         let others = others.into_iter().map(|mut speeds| scope.spawn(move || work(&mut speeds)));

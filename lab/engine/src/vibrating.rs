@@ -119,7 +119,12 @@ pub(crate) fn campbell(request: &Request, reading: &Reading, progress: &mut Prog
         let Ok(mut work) = work.lock() else { return false };
         work.add(SPEED * unknowns, || json!({ "phase": "campbell", "speeds": done, "of": of })).is_continue()
     };
-    reading.campbell(&asked, &watched).map_err(|error| none(&error))
+    let found = reading.campbell(&asked, &watched);
+    let given_up = work.into_inner().ok().and_then(|work| work.given_up);
+    found.map_err(|error| match given_up {
+        Some(why) => json!({ "status": "given-up", "message": why, "problems": [] }),
+        None => none(&error),
+    })
 }
 
 /// A diagram as a page shows it.

@@ -22,6 +22,7 @@ use super::solved::Solved;
 pub use super::speeds::{Block, Speeds};
 use super::tracking::{Match, Tracker, changes_order, crossing, match_shapes};
 use crate::system::System;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Relative distance of critical speeds that count as one.
 const ONE: f64 = 1e-5;
@@ -34,7 +35,8 @@ const SIDE: f64 = 0.4;
 /// Speeds that are inserted between two by such an expectation, before intervals are halved.
 const EXPECTED: u32 = 8;
 
-/// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`.
+/// Computes the diagram of a system. `progress` is called with the number of speeds that are done, and stops by `false`; while the
+/// equilibrium at a speed is searched by more than one level of the loads it is called with the same number again.
 ///
 /// # Errors
 /// [`NoCampbell`]. Instability is no error. Neither is the end of steady rotation, or a stop, beyond the first speed: the diagram ends there
@@ -42,22 +44,22 @@ const EXPECTED: u32 = 8;
 pub fn campbell(
     system: Box<dyn System>,
     plan: &Plan,
-    mut progress: impl FnMut(usize) -> bool,
+    progress: impl Fn(usize) -> bool + Sync,
 ) -> Result<Campbell, NoCampbell> {
-    let mut speeds = Speeds::new(system, plan)?;
-    let (mut blocks, mut done) = (Vec::new(), 0);
+    let done = AtomicUsize::new(0);
+    let next = |solved: usize| progress(solved + done.fetch_add(solved, Ordering::Relaxed));
+    let again = || next(0);
+    let mut speeds = Speeds::new(system, plan, &again)?;
+    let mut blocks = Vec::new();
     for number in 0..Speeds::blocks(plan) {
-        let block = speeds.block(number, || {
-            done += 1;
-            progress(done)
-        });
+        let block = speeds.block(number, || next(1));
         let ends = block.ends();
         blocks.push(block);
         if ends {
             break;
         }
     }
-    assemble(&mut speeds, blocks, || progress(done))
+    assemble(&mut speeds, blocks, again)
 }
 
 /// The diagram of the blocks in their order, up to the first that ends; `system` computes what is needed in between. `progress` is called before each
@@ -187,7 +189,13 @@ fn refine(
                 let beside = place.and_then(|place| beside([from.speed, to.speed], place, CROSSING * range));
                 expected += u32::from(beside.is_some());
                 let middle = 0.5 * (from.speed + to.speed);
-                ahead.push(system.between(beside.unwrap_or(middle), from)?);
+                match system.between(beside.unwrap_or(middle), from) {
+                    Ok(between) => ahead.push(between),
+                    Err(NoCampbell::Stopped) => {
+                        return Ok(Refined { solved: out, matches: all, stopped: true });
+                    }
+                    Err(error) => return Err(error),
+                }
             }
         }
     }

@@ -68,7 +68,7 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
 }
 
 /// The same; `watch` is shown the part of the loads of every level that is tried, and ends the search by `Break`.
-fn direct(
+pub(super) fn direct(
     system: &mut dyn System,
     state: &mut State,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,

@@ -1,9 +1,10 @@
 //! Steady rotation: the equilibrium in the frame of a hub that rotates at a constant speed.
 
-use super::equilibrium::{Effort, NoEquilibrium, equilibrium};
+use super::equilibrium::{Effort, NoEquilibrium, direct};
 use super::stability::{Stability, stability};
 use crate::linalg::eigen::EigenError;
 use crate::system::{Limit, NotSet, Parameter, State, System};
+use std::ops::ControlFlow;
 
 /// Smallest part of the way to a speed by which continuation goes on.
 const SMALLEST: f64 = 1e-4;
@@ -55,6 +56,14 @@ pub enum NoRotation {
         /// What the model knows about it.
         why: Option<Box<Limit>>,
     },
+    /// The search was ended.
+    #[error("the search for the steady rotation at {} rad/s was stopped at {reached:.6} rad/s", short(*.asked))]
+    Stopped {
+        /// Speed asked for [rad/s].
+        asked: f64,
+        /// Speed reached [rad/s].
+        reached: f64,
+    },
     /// Its stability was not found.
     #[error("the stability of the steady rotation at {} rad/s was not found: {source}", short(*.asked))]
     Undecided {
@@ -71,7 +80,9 @@ impl NoRotation {
         match self {
             NoRotation::DoesNotTurn => 0.0,
             NoRotation::Undecided { asked, .. } => *asked,
-            NoRotation::Lost { reached, .. } | NoRotation::Buckled { reached, .. } => *reached,
+            NoRotation::Lost { reached, .. }
+            | NoRotation::Buckled { reached, .. }
+            | NoRotation::Stopped { reached, .. } => *reached,
         }
     }
 }
@@ -81,12 +92,19 @@ impl NoRotation {
 /// with its hub held, and v = a = 0.
 ///
 /// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω: the speed is raised by parts that grow and shrink as
-/// Newton's method converges.
+/// Newton's method converges. `watch` is called for every level of the loads that is tried on the way, and ends the search by `false`.
 ///
 /// # Errors
-/// [`NoRotation`] when the equilibrium ends on the way, or is unstable at the speed asked for.
-pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) -> Result<Effort, NoRotation> {
+/// [`NoRotation`] when the equilibrium ends on the way, or the search is ended.
+pub fn rotate(
+    system: &mut dyn System,
+    state: &mut State,
+    from: f64,
+    to: f64,
+    watch: &mut dyn FnMut() -> bool,
+) -> Result<Effort, NoRotation> {
     system.hold(true);
+    let mut goes_on = true;
     let mut good = state.clone();
     let (mut reached, mut part) = (0.0, 1.0);
     let mut effort = Effort::default();
@@ -101,7 +119,11 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
                 Err(NoEquilibrium { time: state.t, reached: 0.0, what, worst })
             }
         };
-        match set.and_then(|()| equilibrium(system, state)) {
+        let mut level = |_| {
+            goes_on = goes_on && watch();
+            if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        };
+        match set.and_then(|()| direct(system, state, &mut level)) {
             Ok(spent) => {
                 effort.levels += spent.levels;
                 effort.iterations += spent.iterations;
@@ -112,8 +134,12 @@ pub fn rotate(system: &mut dyn System, state: &mut State, from: f64, to: f64) ->
             Err(source) => {
                 state.copy_from(&good);
                 part = 0.25 * (next - reached);
-                if part < SMALLEST {
+                if part < SMALLEST || !goes_on {
                     let reached = speed(reached);
+                    if !goes_on {
+                        let _ = system.set(Parameter::Speed, reached);
+                        return Err(NoRotation::Stopped { asked: to, reached });
+                    }
                     let why = system.explain(state);
                     let _ = system.set(Parameter::Speed, reached);
                     return Err(NoRotation::Lost { asked: to, reached, source, why: why.map(Box::new) });
@@ -139,7 +165,7 @@ pub fn rotate_stably(
     to: f64,
 ) -> Result<Effort, NoRotation> {
     let start = state.clone();
-    let effort = rotate(system, state, from, to)?;
+    let effort = rotate(system, state, from, to, &mut || true)?;
     let found = stability(system, state).map_err(|source| NoRotation::Undecided { asked: to, source })?;
     if found.divergent == 0 {
         return Ok(effort);
@@ -151,7 +177,7 @@ pub fn rotate_stably(
     while (high - low).abs() > ACCURACY * high.abs().max(low.abs()) {
         let middle = 0.5 * (low + high);
         let mut next = at.clone();
-        if rotate(system, &mut next, low, middle).is_ok()
+        if rotate(system, &mut next, low, middle, &mut || true).is_ok()
             && stability(system, &next).is_ok_and(|found| found.divergent == 0)
         {
             low = middle;

@@ -49,16 +49,22 @@ impl Block {
 pub struct Speeds<'a> {
     system: Box<dyn System>,
     plan: &'a Plan,
+    goes_on: &'a (dyn Fn() -> bool + Sync),
     state: State,
     speed: f64,
 }
 
 impl<'a> Speeds<'a> {
-    /// For the speeds of a plan.
+    /// For the speeds of a plan. `goes_on` is asked where the equilibrium at a speed takes more than one level of the loads, and ends
+    /// the search for it by `false`.
     ///
     /// # Errors
     /// [`NoCampbell::Speeds`].
-    pub fn new(system: Box<dyn System>, plan: &'a Plan) -> Result<Speeds<'a>, NoCampbell> {
+    pub fn new(
+        system: Box<dyn System>,
+        plan: &'a Plan,
+        goes_on: &'a (dyn Fn() -> bool + Sync),
+    ) -> Result<Speeds<'a>, NoCampbell> {
         let speeds = &plan.speeds;
         let ascending =
             speeds.windows(2).all(|w| w[0] < w[1]) && speeds.iter().all(|s| s.is_finite() && *s >= 0.0);
@@ -66,7 +72,7 @@ impl<'a> Speeds<'a> {
             return Err(NoCampbell::Speeds);
         }
         let state = system.initial();
-        Ok(Speeds { system, plan, state, speed: 0.0 })
+        Ok(Speeds { system, plan, goes_on, state, speed: 0.0 })
     }
 
     /// Number of blocks of speeds, each of which begins at rest.
@@ -147,7 +153,12 @@ impl<'a> Speeds<'a> {
 
     /// Brings the system to a speed, with its hub held: its [matrices].
     fn turn(&mut self, speed: f64) -> Result<([Matrix; 3], usize), NoCampbell> {
-        rotate(self.system.as_mut(), &mut self.state, self.speed, speed)?;
+        let turned =
+            rotate(self.system.as_mut(), &mut self.state, self.speed, speed, &mut watch(self.goes_on));
+        turned.map_err(|error| match error {
+            NoRotation::Stopped { .. } => NoCampbell::Stopped,
+            error => error.into(),
+        })?;
         self.speed = speed;
         Ok(matrices(self.system.as_mut(), &self.state))
     }
@@ -202,8 +213,8 @@ impl<'a> Speeds<'a> {
             while high.0 - low.0 > ACCURACY * high.0 {
                 let middle = 0.5 * (low.0 + high.0);
                 let mut next = at.clone();
-                let judged = rotate(self.system.as_mut(), &mut next, low.0, middle).ok();
-                let judged = judged.and_then(|_| judge(self.system.as_mut(), &next).ok());
+                let turned = rotate(self.system.as_mut(), &mut next, low.0, middle, &mut watch(self.goes_on));
+                let judged = turned.ok().and_then(|_| judge(self.system.as_mut(), &next).ok());
                 match judged.map(|(stability, negative)| number(stability, negative)) {
                     Some(n) if n == low.1 => (low.0, at) = (middle, next),
                     Some(n) => (high, beyond) = ((middle, n), next),
@@ -233,4 +244,10 @@ impl<'a> Speeds<'a> {
             }
         }
     }
+}
+
+/// Asks from the second level of the loads on.
+fn watch(goes_on: &dyn Fn() -> bool) -> impl FnMut() -> bool {
+    let mut first = true;
+    move || std::mem::take(&mut first) || goes_on()
 }

@@ -12,39 +12,56 @@ use super::Scalar;
 /// Sweeps over all rows at once: what is left of a factor is its root at each.
 const SWEEPS: usize = 12;
 
+/// Exponent that stands for an infinite entry, its negative for no entry, and the size of exponents below which there is a number.
+const NONE: i32 = 1 << 20;
+const NUMBER: i32 = 1 << 19;
+
 /// The diagonal S of a matrix, by places.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Equilibration {
     scales: Vec<f64>,
-    largest: Vec<f64>,
+    /// Row, column and exponent of two of every entry that is not zero.
+    entries: Vec<(u32, u32, i32)>,
+    exponents: Vec<i32>,
+    largest: Vec<i32>,
 }
 
 impl Equilibration {
     /// S with which the largest entry sᵢ |aᵢⱼ| sⱼ of every row is between ½ and 4; `measure` calls what it is given with i, j and |aᵢⱼ| of every entry.
-    pub(super) fn find(&mut self, order: usize, mut measure: impl FnMut(&mut dyn FnMut(usize, usize, f64))) {
-        let Equilibration { scales, largest } = self;
-        scales.clear();
-        scales.resize(order, 1.0);
+    ///
+    /// Of powers of two and their products the exponents tell the largest: sweeps are over integers, and over entries that are not zero.
+    pub(super) fn find(&mut self, order: usize, measure: impl FnOnce(&mut dyn FnMut(usize, usize, f64))) {
+        let Equilibration { scales, entries, exponents, largest } = self;
+        entries.clear();
+        measure(&mut |i, j, size| {
+            if size > 0.0 {
+                let exponent = if size.is_finite() { libm::ilogb(size) } else { NONE };
+                entries.push((i as u32, j as u32, exponent));
+            }
+        });
+        exponents.clear();
+        exponents.resize(order, 0);
         for _ in 0..SWEEPS {
             largest.clear();
-            largest.resize(order, 0.0);
-            measure(&mut |i, j, size| {
-                let size = size * scales[i] * scales[j];
-                largest[i] = largest[i].max(size);
-                largest[j] = largest[j].max(size);
-            });
+            largest.resize(order, -NONE);
+            for &(i, j, exponent) in entries.iter() {
+                let (i, j) = (i as usize, j as usize);
+                let scaled = exponent + exponents[i] + exponents[j];
+                largest[i] = largest[i].max(scaled);
+                largest[j] = largest[j].max(scaled);
+            }
             let mut changes = false;
-            for (s, size) in scales.iter_mut().zip(&*largest) {
-                if *size > 0.0 && size.is_finite() {
-                    let by = -libm::ilogb(*size) / 2;
-                    changes |= by != 0;
-                    *s = libm::scalbn(*s, by);
-                }
+            for (s, exponent) in exponents.iter_mut().zip(&*largest) {
+                let by = if exponent.abs() < NUMBER { -exponent / 2 } else { 0 };
+                changes |= by != 0;
+                *s += by;
             }
             if !changes {
                 break;
             }
         }
+        scales.clear();
+        scales.extend(exponents.iter().map(|e| libm::scalbn(1.0, *e)));
     }
 
     /// S

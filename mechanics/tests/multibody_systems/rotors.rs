@@ -66,7 +66,7 @@ impl Shaft {
     fn modes(&self, speed: f64, count: usize) -> Modes {
         let mut system = self.system();
         let mut s: State = system.initial();
-        rotate(&mut system, &mut s, 0.0, speed).unwrap();
+        rotate(&mut system, &mut s, 0.0, speed, &mut || true).unwrap();
         modes(&mut system, &s, count, &[]).unwrap_or_else(|error| panic!("{speed} rad/s, {count}: {error}"))
     }
 
