@@ -32,6 +32,7 @@ mod pendulum;
 mod quantities;
 mod reported_errors;
 mod restart;
+mod resting;
 mod rotor;
 mod scales;
 mod section_forces;

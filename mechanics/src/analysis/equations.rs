@@ -20,6 +20,7 @@
 use super::joints;
 use super::stiffness::matrices;
 use crate::linalg::Matrix;
+use crate::linalg::eigen::negative_directions;
 use crate::system::{Parameter, State, System, Weights};
 
 /// Iterations allowed at one level, and at one point of a path.
@@ -39,6 +40,8 @@ const UNBALANCED: f64 = 1e-2;
 /// motions are held: the held part of an increment shrinks slowly however small it is.
 const SMALL: [f64; 2] = [1e-9, 1e-13];
 
+const IN_TURN: &str = "contacts open and close in turn";
+
 /// Why an iteration has ended.
 pub(super) struct Failure {
     pub what: String,
@@ -46,6 +49,13 @@ pub(super) struct Failure {
     pub singular: bool,
     /// Number of the worst unknown.
     pub worst: usize,
+}
+
+impl Failure {
+    /// One of no unknown.
+    pub(super) fn of(what: &str) -> Failure {
+        Failure { what: what.to_owned(), singular: false, worst: 0 }
+    }
 }
 
 /// A direction of a path: increments of the unknowns and of the part s.
@@ -96,9 +106,18 @@ impl<'a> Equations<'a> {
 
     /// Factors J at a state and a part of the loads.
     fn factor(&mut self, state: &State, part: f64) -> Result<(), Failure> {
+        self.assemble(state, part);
+        self.factor_assembled()
+    }
+
+    /// Writes J at a state and a part of the loads into `tangent`.
+    fn assemble(&mut self, state: &State, part: f64) {
         apply(self.system, part);
         self.system.tangent(state, Weights::new(self.hold, 0.0, 1.0), &mut self.tangent);
         joints::add(self.system, state, state.v.len(), &mut self.tangent);
+    }
+
+    fn factor_assembled(&mut self) -> Result<(), Failure> {
         let factored = self.tangent.factor_equilibrated();
         factored.map(|_| ()).map_err(|e| Failure { what: e.to_string(), singular: true, worst: e.index })
     }
@@ -149,7 +168,39 @@ impl<'a> Equations<'a> {
         *part += step * along.part;
     }
 
-    fn take(&mut self, state: &mut State, d: &[f64]) {
+    /// The scales of the unknowns.
+    pub(super) fn scales(&self) -> &[f64] {
+        &self.scales
+    }
+
+    /// The residual under all of the loads.
+    pub(super) fn forces(&mut self, state: &State) -> Vec<f64> {
+        self.residual(state, 1.0);
+        self.r[..state.v.len()].to_vec()
+    }
+
+    /// The increment −J⁻¹F under all of the loads that keeps contacts apart and lets none pull, to the first order; `None` where K + σM is negative in
+    /// some direction that the rows allow.
+    pub(super) fn sink(&mut self, state: &mut State) -> Result<Option<Vec<f64>>, Failure> {
+        let m = state.lambda.len();
+        for _ in 0..CHANGES * (1 + m) {
+            self.residual(state, 1.0);
+            self.assemble(state, 1.0);
+            if negative_directions(&self.tangent, m) > 0 {
+                return Ok(None);
+            }
+            self.factor_assembled()?;
+            self.tangent.solve(&mut self.r);
+            let d: Vec<f64> = self.r.iter().map(|x| -x).collect();
+            if !joints::change_contact_behind(self.system, state, &d) {
+                return Ok(Some(d));
+            }
+        }
+        Err(Failure::of(IN_TURN))
+    }
+
+    /// Moves a state by an increment of the unknowns.
+    pub(super) fn take(&mut self, state: &mut State, d: &[f64]) {
         let (d, multipliers) = d.split_at(state.v.len());
         self.system.retract(&state.q, d, &mut self.moved);
         state.q.copy_from_slice(&self.moved);
@@ -171,7 +222,7 @@ impl<'a> Equations<'a> {
                 return Ok(taken);
             }
         }
-        Err(Failure { what: "contacts open and close in turn".to_owned(), singular: false, worst: 0 })
+        Err(Failure::of(IN_TURN))
     }
 
     /// [`solve`](Equations::solve) with the contacts that are closed.
@@ -256,7 +307,7 @@ pub(super) fn apply(system: &mut dyn System, part: f64) {
 }
 
 /// Index and scaled size of the largest increment (a NaN counts as largest).
-fn largest(d: &[f64], scale: &[f64]) -> (usize, f64) {
+pub(super) fn largest(d: &[f64], scale: &[f64]) -> (usize, f64) {
     let mut worst = (0, 0.0);
     for (i, (d, scale)) in d.iter().zip(scale).enumerate() {
         let size = (d / scale).abs();

@@ -8,9 +8,10 @@
 //! K + σM in the place of K Newton's method takes the one near the start: σ, small against the squares of all frequencies that are not
 //! zero, leaves its solution as it is, and a load in such a direction has none.
 
-use super::equations::{Equations, apply, highest};
+use super::equations::{Equations, Failure, apply, highest};
 use super::joints;
 use super::path::{Plan, first_stable};
+use super::settling::settle;
 use super::stability::{Stability, is_neutral, stability};
 use crate::system::{State, System};
 use std::cell::Cell;
@@ -74,12 +75,17 @@ pub(super) fn direct(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Effort, NoEquilibrium> {
     let start = state.clone();
+    if !system.contacts(&start).is_empty() && is_neutral(system, &start) {
+        return come_to_rest(system, state, watch);
+    }
     let (mut result, singular) = follow_loads(system, state, 0.0, watch);
     if result.is_err() && (singular || is_neutral(system, &start)) {
         let highest = highest(system, &start);
         for hold in HOLDS.map(|part| part * highest).into_iter().filter(|hold| *hold > 0.0) {
             let mut held = start.clone();
-            if let (Ok(effort), _) = follow_loads(system, &mut held, hold, watch) {
+            if let (Ok(effort), _) = follow_loads(system, &mut held, hold, watch)
+                && release(system, &mut held).is_ok()
+            {
                 state.copy_from(&held);
                 result = Ok(effort);
                 break;
@@ -89,7 +95,49 @@ pub(super) fn direct(
     result
 }
 
-/// The same with the weight `hold` of the masses beside K; and whether a matrix was singular.
+/// Solves again without the masses that held an equilibrium, if all of its motions have a stiffness.
+fn release(system: &mut dyn System, state: &mut State) -> Result<u32, Failure> {
+    if is_neutral(system, state) {
+        return Ok(0);
+    }
+    let mut equations = Equations::new(system, state);
+    equations.solve(state, &mut 1.0, None)
+}
+
+/// The equilibrium in which contacts hold what the loads drive.
+fn come_to_rest(
+    system: &mut dyn System,
+    state: &mut State,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Effort, NoEquilibrium> {
+    let mut equations = Equations::new(system, state);
+    let found = settle(&mut equations, state, watch).and_then(|()| {
+        let neutral = is_neutral(equations.system, state);
+        let unit = highest(equations.system, state);
+        let holds = if neutral { HOLDS.map(|part| part * unit).to_vec() } else { vec![0.0] };
+        let mut last = Err(Failure::of("nothing holds it"));
+        for hold in holds {
+            equations.hold = hold;
+            let mut held = state.clone();
+            last = equations.solve(&mut held, &mut 1.0, None);
+            if last.is_ok() {
+                state.copy_from(&held);
+                break;
+            }
+        }
+        last
+    });
+    apply(equations.system, 1.0);
+    match found {
+        Ok(_) => Ok(Effort { levels: 1, iterations: equations.iterations }),
+        Err(Failure { what, worst, .. }) => {
+            let worst = equations.system.unknown(worst);
+            Err(NoEquilibrium { time: state.t, reached: 0.0, what, worst })
+        }
+    }
+}
+
+/// [`direct`] with the weight `hold` of the masses beside K; and whether a matrix was singular.
 fn follow_loads(
     system: &mut dyn System,
     state: &mut State,
@@ -194,6 +242,17 @@ pub fn stable_equilibrium(
             Ok(Found { stability: Some(Stability::default()), left, neutral: false })
         }
         None if ended.get() => Err(stopped(system, state.t, last.get())),
+        None if !system.contacts(&start).is_empty() => {
+            let mut rest = start.clone();
+            let settled = come_to_rest(system, &mut rest, &mut watch);
+            let found = settled.is_ok().then(|| stability(system, &rest).ok()).flatten();
+            if let Some(stability) = found.filter(|found| found.is_stable() || direct.is_err()) {
+                let neutral = is_neutral(system, &rest);
+                state.copy_from(&rest);
+                return Ok(Found { stability: Some(stability), left, neutral });
+            }
+            direct.map(|_| Found { stability: left, left: None, neutral })
+        }
         None => direct.map(|_| Found { stability: left, left: None, neutral }),
     }
 }

@@ -41,18 +41,38 @@ pub(super) fn add(system: &mut dyn Dynamics, s: &State, n: usize, matrix: &mut M
 /// Closes the open contact that is deepest inside its obstacle, or else opens the closed one that pulls most. `false` where there
 /// is none.
 pub(super) fn change_contact(system: &mut dyn Dynamics, s: &mut State) -> bool {
-    let mut g = vec![0.0; s.lambda.len()];
-    if g.is_empty() {
-        return false;
+    let lambda = s.lambda.clone();
+    let gaps = gaps(system, s);
+    change(system, s, &gaps, &lambda)
+}
+
+/// The same by gaps and forces behind an increment of the unknowns, to the first order.
+pub(super) fn change_contact_behind(system: &mut dyn Dynamics, s: &mut State, d: &[f64]) -> bool {
+    let (d, multipliers) = d.split_at(s.v.len());
+    let lambda: Vec<f64> = s.lambda.iter().zip(multipliers).map(|(lambda, x)| lambda + x).collect();
+    let mut gaps = gaps(system, s);
+    system.jacobian(s, &mut |row, velocities, entries| {
+        gaps[row] += velocities.iter().zip(entries).map(|(&j, x)| x * d[j]).sum::<f64>();
+    });
+    change(system, s, &gaps, &lambda)
+}
+
+fn gaps(system: &mut dyn Dynamics, s: &State) -> Vec<f64> {
+    let mut gaps = vec![0.0; s.lambda.len()];
+    if !gaps.is_empty() {
+        system.constraint(s, RowWeights::POSITION, &mut gaps);
     }
-    system.constraint(s, RowWeights::POSITION, &mut g);
+    gaps
+}
+
+fn change(system: &dyn Dynamics, s: &mut State, gaps: &[f64], lambda: &[f64]) -> bool {
     let rounding = DEPTH * system.length();
     let least = |mode: Mode, x: &[f64]| {
         let contact = |i: &usize| matches!(system.rows()[*i], Set::Unilateral { .. }) && s.mode[*i] == mode;
         (0..x.len()).filter(contact).min_by(|i, j| x[*i].total_cmp(&x[*j]))
     };
-    let inside = least(Mode::Open, &g).filter(|i| g[*i] < -rounding);
-    let pulls = least(Mode::Closed, &s.lambda).filter(|i| s.lambda[*i] < 0.0);
+    let inside = least(Mode::Open, gaps).filter(|i| gaps[*i] < -rounding);
+    let pulls = least(Mode::Closed, lambda).filter(|i| lambda[*i] < 0.0);
     match (inside, pulls) {
         (Some(i), _) => s.mode[i] = Mode::Closed,
         (None, Some(i)) => (s.mode[i], s.lambda[i]) = (Mode::Open, 0.0),

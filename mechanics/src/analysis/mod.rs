@@ -20,6 +20,7 @@ pub mod periodic;
 pub mod recording;
 mod rigid;
 pub mod rotation;
+mod settling;
 mod solved;
 mod speeds;
 mod stability;
