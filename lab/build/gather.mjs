@@ -7,7 +7,9 @@ import { parse } from "smol-toml";
 
 const root = join(import.meta.dirname, "../..");
 /** Larger files lie beside the page, and are read when their case is opened [bytes]. */
-const LARGE = 6000;
+const LARGE = 2500;
+/** Files of the case that is shown first are within the page, however large. */
+const FIRST = "verification/p1_spin_up_4";
 /** Still larger files, those of other formats, are left to those who have the repository [bytes]. */
 const LARGEST = 70_000;
 
@@ -34,8 +36,9 @@ function files(folder, texts) {
     if (!/\.(csv|dat)$/i.test(name) || found[name] !== undefined || path.startsWith("..") || !existsSync(join(root, path))) return;
     const content = text(path);
     if (content.length > LARGEST) return;
-    if (content.length > LARGE) large[posix.basename(name)] = content;
-    found[name] = content.length > LARGE ? null : content;
+    const within = content.length <= LARGE || from === FIRST;
+    if (!within) large[posix.basename(name)] = content;
+    found[name] = within ? content : null;
     if (!/\.(dat|inp|yaml|yml|htc)$/i.test(name)) return;
     for (const [, further] of content.slice(0, 20000).matchAll(/^\s*"([^"\n]+\.(?:dat|csv|inp))"/gim)) {
       const beside = posix.join(posix.dirname(name), further);
