@@ -1,6 +1,6 @@
 // Gathers the gallery: every case of verification/ and every item of papers/, with title, sentence, runs and files.
 //
-//     node build/gather.mjs        writes made/gallery.json, and large files into made/files.json
+//     node build/gather.mjs        writes made/gallery.json, large files into made/files.json, and what is drawn of items into made/pictured.json
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, posix } from "node:path";
 import { parse } from "smol-toml";
@@ -118,7 +118,10 @@ for (const paper of folders("papers")) {
 
 const made = join(import.meta.dirname, "../made");
 mkdirSync(made, { recursive: true });
-writeFileSync(join(made, "gallery.json"), JSON.stringify({ cases, items }));
+// What only the pictures need is not in the page.
+const pictured = Object.fromEntries(items.map(({ id, plot, drawing }) => [id, { plot, drawing }]));
+writeFileSync(join(made, "pictured.json"), JSON.stringify(pictured));
+writeFileSync(join(made, "gallery.json"), JSON.stringify({ cases, items: items.map(({ plot, drawing, ...item }) => item) }));
 writeFileSync(join(made, "files.json"), JSON.stringify(large));
 const runs = items.reduce((sum, item) => sum + item.runs.length, 0);
 console.log(`${items.length} items with ${runs} runs of ${Object.keys(cases).length} cases`);
