@@ -98,6 +98,9 @@ const asked = (): Asked => ({
   diagram: state.kind === "campbell" ? diagram : undefined,
 });
 
+/** A largest speed, if it is one. */
+const largest = (most?: string) => ((quantity(most ?? "")?.number ?? 0) > 0 ? most : undefined);
+
 /** Speeds of the Campbell diagram: from rest to what is chosen, or half as much again as the speed of the case. */
 function range(): string | undefined {
   const own = quantity(speedOf());
@@ -164,9 +167,12 @@ function name(title: string) {
 
 function list(problems: Problem[]) {
   const nodes = problems.slice(0, 20).map((problem) => {
-    const go = tag("button", { type: "button" }, problem.line ? `Line ${problem.line}` : (problem.set ?? problem.key ?? "Case"));
+    const go = tag("button", { type: "button" }, problem.line ? `Line ${problem.line}` : (problem.key ?? "Case"));
     go.addEventListener("click", () => {
-      tab("text");
+      // A value that was not taken over stands in its box, and not in the text.
+      const box = problem.line ? null : document.getElementById(`key-${problem.key}`);
+      tab(box ? "form" : "text");
+      if (box) return box.focus();
       source.go(problem.line ?? 1, problem.column ?? 1);
     });
     const help = [problem.label, ...(problem.help ?? [])].filter(Boolean).join("; ");
@@ -331,7 +337,7 @@ async function open(asked: Link) {
   revision += 1;
   const kind = asked.kind ?? "run";
   if (asked.text !== undefined) {
-    state = { text: asked.text, files: {}, kind, speed: asked.speed, most: asked.most, version: asked.version, fresh: true };
+    state = { text: asked.text, files: {}, kind, speed: asked.speed, most: largest(asked.most), version: asked.version, fresh: true };
   } else {
     const id = asked.named ?? gallery.first;
     const found = gallery.named(id, asked.run);
@@ -346,7 +352,7 @@ async function open(asked: Link) {
     const speed = asked.speed ?? found.run.speed ?? found.item.speed;
     // Another one was opened in the meantime.
     if (own !== openings) return;
-    state = { text, files, item: found.item, run: found.run, kind: its ?? kind, speed, most: asked.most, version: asked.version, fresh: true };
+    state = { text, files, item: found.item, run: found.run, kind: its ?? kind, speed, most: largest(asked.most), version: asked.version, fresh: true };
   }
   present();
   name("");
@@ -423,7 +429,10 @@ element<HTMLInputElement>("rotation").addEventListener("change", (event) => {
   change();
 });
 element<HTMLInputElement>("most").addEventListener("change", (event) => {
-  state.most = (event.target as HTMLInputElement).value.trim() || undefined;
+  const box = event.target as HTMLInputElement;
+  state.most = largest(box.value);
+  if (box.value.trim() && !state.most) tell("The diagram leads up to a speed above zero, as 20 rpm.");
+  box.value = state.most ?? "";
   diagram = undefined;
   change();
 });

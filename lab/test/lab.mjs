@@ -183,6 +183,41 @@ const journeys = {
     assert.equal(await page.textContent("#title"), "A bar falls on a hinge");
     assert.ok((await fragment(page)).startsWith("#case=space_joints"));
   },
+  async "what is typed early is kept"(page) {
+    // The lists of kinds come after the first answer, and make the form anew.
+    await page.addInitScript(() => {
+      const seen = () => {
+        const box = document.getElementById("key-beam.length");
+        if (!box || window.typed) return;
+        window.typed = box;
+        setTimeout(() => box.focus());
+      };
+      new MutationObserver(seen).observe(document, { childList: true, subtree: true });
+    });
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    await page.waitForTimeout(1500);
+    assert.ok(await page.evaluate(() => document.activeElement === window.typed), "the box is the same");
+    await page.evaluate(() => window.typed.blur());
+    await page.waitForSelector("select#key-hub\\.motion");
+  },
+  async "what cannot be computed says why"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    await page.fill("#key-beam\\.length", "10,5 m");
+    await page.keyboard.press("Enter");
+    await page.waitForSelector("#problems button");
+    assert.match(await page.textContent("#problems"), /^beam\.length .*decimal comma/);
+    await page.click("#problems button");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "key-beam.length", "the message leads to its box");
+    await page.goto(`${lab}#case=p1_spin_up_4&do=campbell&speed=1e300 rad/s&most=-3 rpm`);
+    await page.waitForFunction(() => /There are no modes at this speed: \w/.test(document.querySelector("#notes").textContent));
+    assert.equal(await page.inputValue("#most"), "6 rad/s", "a range below zero is none");
+    const large = `[beam]\nlength = "1 m"\n[section]\nkind = "uniform"\nmodulus = "70 GPa"\ndensity = 2700\narea = "1 cm^2"\nsecond-moment = "1e-10 m^4"\n[basis]\nkind = "finite-elements"\nelements = 200000\n[run]\nduration = "1 s"\n`;
+    await page.goto(`${lab}#c=${deflateRawSync(large).toString("base64url")}`);
+    await page.waitForFunction(() => document.querySelector("#stop").hidden && document.querySelector("#state").textContent !== "");
+    assert.doesNotMatch(await page.textContent("#state"), /unreachable/);
+  },
   async "it plays, stops and steps"(page) {
     await page.goto(`${lab}#case=space_joints`);
     await answered(page);
