@@ -174,13 +174,14 @@ pub(crate) fn told_statics((path, given_up): &(LoadPath, Option<String>)) -> Val
     // To a page nothing is refused.
     let _ = put_statics(&mut curves, path);
     let channel = |channel: &flexion::system::Channel| json!({ "name": channel.name, "unit": channel.unit, "role": channel.role.name() });
+    // A path that was whole when its work ended lacks its errors alone.
+    let (status, message) = match (given_up, &path.end) {
+        (Some(why), Some(_)) => ("given-up", Some(why)),
+        (None, Some(end)) => ("failed", Some(end)),
+        (_, None) => ("finished", None),
+    };
     json!({
-        "status": match (given_up, &path.end) {
-            (Some(_), Some(_)) => "given-up",
-            (_, Some(_)) => "failed",
-            (_, None) => "finished",
-        },
-        "message": given_up.as_ref().or(path.end.as_ref()), "problems": [], "warnings": path.cautions,
+        "status": status, "message": message, "problems": [], "warnings": path.cautions,
         "columns": path.channels.iter().map(channel).collect::<Vec<_>>(),
         "summary": statics_json(path, &path.cautions),
         "results": { "version": flexion_results::VERSION, "curves": curves },

@@ -86,6 +86,10 @@ fn work_and_memory_have_limits() {
     let paths: Vec<_> = refused.iter().filter(|reply| reply["results"].is_object()).collect();
     assert!(paths.iter().any(|path| path["status"] == "given-up"), "{refused:?}");
     assert!(paths.iter().all(|path| !path["message"].to_string().contains("user")), "{paths:?}");
+    assert!(
+        paths.iter().all(|path| path["message"].is_null() == (path["status"] == "finished")),
+        "{paths:?}"
+    );
 }
 
 #[test]
