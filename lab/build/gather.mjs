@@ -1,13 +1,15 @@
 // Gathers the gallery: every case of verification/ and every item of papers/, with title, sentence, runs and files.
 //
-//     node build/gather.mjs        writes made/gallery.json, and large files into made/files.json
+//     node build/gather.mjs        writes made/gallery.json, large files into made/files.json, and what is drawn of items into made/pictured.json
 import { existsSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, posix } from "node:path";
 import { parse } from "smol-toml";
 
 const root = join(import.meta.dirname, "../..");
 /** Larger files lie beside the page, and are read when their case is opened [bytes]. */
-const LARGE = 6000;
+const LARGE = 2500;
+/** Files of the case that is shown first are within the page, however large. */
+const FIRST = "verification/p1_spin_up_4";
 /** Still larger files, those of other formats, are left to those who have the repository [bytes]. */
 const LARGEST = 70_000;
 
@@ -34,8 +36,9 @@ function files(folder, texts) {
     if (!/\.(csv|dat)$/i.test(name) || found[name] !== undefined || path.startsWith("..") || !existsSync(join(root, path))) return;
     const content = text(path);
     if (content.length > LARGEST) return;
-    if (content.length > LARGE) large[posix.basename(name)] = content;
-    found[name] = content.length > LARGE ? null : content;
+    const within = content.length <= LARGE || from === FIRST;
+    if (!within) large[posix.basename(name)] = content;
+    found[name] = within ? content : null;
     if (!/\.(dat|inp|yaml|yml|htc)$/i.test(name)) return;
     for (const [, further] of content.slice(0, 20000).matchAll(/^\s*"([^"\n]+\.(?:dat|csv|inp))"/gim)) {
       const beside = posix.join(posix.dirname(name), further);
@@ -115,7 +118,10 @@ for (const paper of folders("papers")) {
 
 const made = join(import.meta.dirname, "../made");
 mkdirSync(made, { recursive: true });
-writeFileSync(join(made, "gallery.json"), JSON.stringify({ cases, items }));
+// What only the pictures need is not in the page.
+const pictured = Object.fromEntries(items.map(({ id, plot, drawing }) => [id, { plot, drawing }]));
+writeFileSync(join(made, "pictured.json"), JSON.stringify(pictured));
+writeFileSync(join(made, "gallery.json"), JSON.stringify({ cases, items: items.map(({ plot, drawing, ...item }) => item) }));
 writeFileSync(join(made, "files.json"), JSON.stringify(large));
 const runs = items.reduce((sum, item) => sum + item.runs.length, 0);
 console.log(`${items.length} items with ${runs} runs of ${Object.keys(cases).length} cases`);

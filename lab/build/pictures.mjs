@@ -119,7 +119,9 @@ function column(results, name, from = -Infinity, to = Infinity) {
 
 const [file, folder] = process.argv.slice(2);
 const root = join(import.meta.dirname, "../..");
-const { cases, items } = JSON.parse(readFileSync(join(root, "lab/made/gallery.json"), "utf8"));
+const { cases, items: listed } = JSON.parse(readFileSync(join(root, "lab/made/gallery.json"), "utf8"));
+const pictured = JSON.parse(readFileSync(join(root, "lab/made/pictured.json"), "utf8"));
+const items = listed.map((item) => ({ ...item, ...pictured[item.id] }));
 const large = JSON.parse(readFileSync(join(root, "lab/made/files.json"), "utf8"));
 const { ask } = await open(file);
 mkdirSync(folder, { recursive: true });

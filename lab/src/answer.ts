@@ -73,6 +73,7 @@ export class Answer {
     const found = diagram(of, this.room, speed, (speed) => this.choose(`${speed} ${unit}`));
     this.room.curves.prepend(found, tag("h2", {}, `Modes at ${text(speed, 3)} ${unit}`));
     this.remark({ ...reply, warnings: [...(reply.warnings ?? []), ...(at?.warnings ?? [])] }, remark);
+    if (!at?.results) this.notes.append(tag("p", { class: "failed" }, `There are no modes at this speed: ${at?.message ?? "no reason is given"}`));
   }
 
   /** Draws a run: its motion, its columns, its values and its events. */

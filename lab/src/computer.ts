@@ -109,7 +109,10 @@ export class Computer {
   /** The text with changes. */
   async change(text: string, set: string[], files: Record<string, string>): Promise<string> {
     const reply = await this.quick.ask({ do: "change", case: text, set, files, limits: this.limits(false) }, PATIENCE);
-    if (reply.case === undefined) throw new Error(reply.problems?.[0]?.message ?? reply.message ?? "The case cannot be changed so.");
+    if (reply.case === undefined) {
+      const [problem] = reply.problems ?? [];
+      throw new Error(problem ? `${problem.key ? `${problem.key}: ` : ""}${problem.message}` : (reply.message ?? "The case cannot be changed so."));
+    }
     return reply.case;
   }
 

@@ -46,6 +46,11 @@ export class Form {
 
   /** Kinds of tables with the keys of an example, by their paths. */
   offer(kinds: Map<string, { name: string; example: string }[]>) {
+    // What is being typed is not taken away.
+    if (this.into.contains(document.activeElement)) {
+      this.into.addEventListener("focusout", () => setTimeout(() => this.offer(kinds)), { once: true });
+      return;
+    }
     this.kinds = kinds;
     this.shape = "";
     this.show(this.entries);

@@ -21,7 +21,6 @@ export interface Item {
   case: string;
   source?: string;
   page?: string;
-  drawing?: string;
   do?: Kind;
   speed?: string;
   runs: Run[];

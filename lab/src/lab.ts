@@ -15,6 +15,7 @@ import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import { Room } from "./room";
 import * as save from "./save";
 import { Source } from "./source";
+import { inRadians } from "./text";
 import { warm } from "./stage";
 import { zip } from "./zip";
 
@@ -97,11 +98,21 @@ const asked = (): Asked => ({
   diagram: state.kind === "campbell" ? diagram : undefined,
 });
 
+/** A largest speed, if it is one. */
+const largest = (most?: string) => ((quantity(most ?? "")?.number ?? 0) > 0 ? most : undefined);
+
 /** Speeds of the Campbell diagram: from rest to what is chosen, or half as much again as the speed of the case. */
 function range(): string | undefined {
   const own = quantity(speedOf());
   const most = quantity(state.most ?? "") ?? (own && own.number > 0 ? { ...own, number: Number((1.5 * own.number).toPrecision(2)) } : undefined);
   return most && most.number > 0 ? `0 ${most.unit || "rad/s"}:${most.number} ${most.unit || "rad/s"}:31` : undefined;
+}
+
+/** Speeds of the diagram that is shown. */
+function speeds(): string {
+  const of = diagram && campbell(diagram);
+  const unit = of?.["speed-unit"];
+  return range() ?? (of ? `0 ${unit}:${Number(of.speeds[of.speeds.length - 1].toPrecision(3))} ${unit}:31` : "0:10:31");
 }
 
 /** The case or what is asked of it has changed. */
@@ -156,9 +167,12 @@ function name(title: string) {
 
 function list(problems: Problem[]) {
   const nodes = problems.slice(0, 20).map((problem) => {
-    const go = tag("button", { type: "button" }, problem.line ? `Line ${problem.line}` : (problem.set ?? problem.key ?? "Case"));
+    const go = tag("button", { type: "button" }, problem.line ? `Line ${problem.line}` : (problem.key ?? "Case"));
     go.addEventListener("click", () => {
-      tab("text");
+      // A value that was not taken over stands in its box, and not in the text.
+      const box = problem.line ? null : document.getElementById(`key-${problem.key}`);
+      tab(box ? "form" : "text");
+      if (box) return box.focus();
       source.go(problem.line ?? 1, problem.column ?? 1);
     });
     const help = [problem.label, ...(problem.help ?? [])].filter(Boolean).join("; ");
@@ -179,7 +193,10 @@ function answered(kind: Kind, reply: Reply, modes?: Reply) {
       diagram = reply;
       const { speeds, "speed-unit": unit } = campbell(reply);
       element<HTMLInputElement>("most").value ||= (range() ?? `0:${Number(speeds[speeds.length - 1].toPrecision(3))} ${unit}`).split(":")[1];
-      answer.showCampbell(reply, modes, quantity(state.speed ?? "0")?.number ?? 0, remark);
+      // The speed of the modes may be in another unit than those of the diagram.
+      const at = quantity(state.speed ?? "");
+      const factor = at?.unit ? inRadians(at.unit) / inRadians(unit) : 1;
+      answer.showCampbell(reply, modes, factor * (at?.number ?? 0), remark);
     } else answer.show(kind, reply, pin, remark);
     shown = { kind, reply };
     growing.clear();
@@ -253,7 +270,7 @@ function remember(push = false) {
 
 /** The fragment of the link to what is shown. */
 async function link(): Promise<string> {
-  const common = { kind: state.kind, speed: state.kind === "run" ? undefined : state.speed, version };
+  const common = { kind: state.kind, speed: state.kind === "run" ? undefined : state.speed, most: state.kind === "campbell" ? state.most : undefined, version };
   const item = state.item && gallery.named(state.item.id, state.run?.name);
   if (item) {
     const changes = item.run.set.length > 0 ? await computer.change(item.text, item.run.set, state.files) : item.text;
@@ -283,7 +300,7 @@ async function follow() {
     // A newer address is followed instead.
     if (written_ === fragment) await open(asked);
   } catch (error) {
-    refuse((error as Error).message);
+    if (written_ === fragment) refuse((error as Error).message);
   } finally {
     following -= 1;
   }
@@ -292,7 +309,10 @@ async function follow() {
 function refuse(message: string) {
   computer.stop();
   state = { text: "", files: {}, kind: "run" };
-  [shown, diagram] = [undefined, undefined];
+  [shown, diagram, entries] = [undefined, undefined, []];
+  present();
+  form.show(entries);
+  source.report([]);
   answer.clear();
   room.stage.hidden = true;
   name("This link cannot be opened");
@@ -305,13 +325,19 @@ function again() {
   return tag("a", { href: `#case=${gallery.first}` }, "Open a case that works");
 }
 
+/** Counts the cases that were to be opened. */
+let openings = 0;
+
 async function open(asked: Link) {
+  const own = ++openings;
   computer.stop();
   computer.lifted = false;
   diagram = undefined;
+  // What is known of the case before comes too late from here on.
+  revision += 1;
   const kind = asked.kind ?? "run";
   if (asked.text !== undefined) {
-    state = { text: asked.text, files: {}, kind, speed: asked.speed, version: asked.version, fresh: true };
+    state = { text: asked.text, files: {}, kind, speed: asked.speed, most: largest(asked.most), version: asked.version, fresh: true };
   } else {
     const id = asked.named ?? gallery.first;
     const found = gallery.named(id, asked.run);
@@ -320,11 +346,13 @@ async function open(asked: Link) {
       throw new Error(`There is no case “${id}”${asked.run ? ` with a run “${asked.run}”` : ""} in the gallery.${near ? ` The nearest is “${near}”.` : ""}`);
     }
     const files = Object.fromEntries(Object.entries(await gallery.texts(found.files)).map(([name, text]) => [name, base64(new TextEncoder().encode(text))]));
-    const own = asked.named && asked.kind ? undefined : (found.run.do ?? found.item.do);
+    const its = asked.named && asked.kind ? undefined : (found.run.do ?? found.item.do);
     const changes = [...found.run.set, ...asked.set];
     const text = changes.length > 0 ? await computer.change(found.text, changes, files) : found.text;
     const speed = asked.speed ?? found.run.speed ?? found.item.speed;
-    state = { text, files, item: found.item, run: found.run, kind: own ?? kind, speed, version: asked.version, fresh: true };
+    // Another one was opened in the meantime.
+    if (own !== openings) return;
+    state = { text, files, item: found.item, run: found.run, kind: its ?? kind, speed, most: largest(asked.most), version: asked.version, fresh: true };
   }
   present();
   name("");
@@ -401,7 +429,10 @@ element<HTMLInputElement>("rotation").addEventListener("change", (event) => {
   change();
 });
 element<HTMLInputElement>("most").addEventListener("change", (event) => {
-  state.most = (event.target as HTMLInputElement).value.trim() || undefined;
+  const box = event.target as HTMLInputElement;
+  state.most = largest(box.value);
+  if (box.value.trim() && !state.most) tell("The diagram leads up to a speed above zero, as 20 rpm.");
+  box.value = state.most ?? "";
   diagram = undefined;
   change();
 });
@@ -465,7 +496,7 @@ const copies: Record<string, () => Promise<void>> = {
   command: async () => {
     const found = state.item && gallery.named(state.item.id, state.run?.name);
     const difference = found && (await computer.difference(state.text, found.text, state.files));
-    await put(save.command(state.kind, difference ? found.path : "case.toml", difference ?? [], state.speed), "The command");
+    await put(save.command(state.kind, difference ? found.path : "case.toml", difference ?? [], state.speed, speeds()), "The command");
     if (!difference) tell("The command is copied. It takes the case from case.toml: save the case as that.");
   },
   python: async () => put(save.python(state.kind, state.text, state.speed), "The Python text"),
@@ -516,9 +547,12 @@ async function take(given: File[]) {
   const toml = given.find(({ name }) => name.endsWith(".toml"));
   if (!toml || given.some(({ size }) => size > 64 * LARGEST)) return tell("Choose a case (.toml) and the files that it names.");
   const files: Record<string, string> = {};
+  const own = ++openings;
   for (const other of given) if (other !== toml) files[other.name] = base64(new Uint8Array(await other.arrayBuffer()));
+  const text = await toml.text();
+  if (own !== openings) return;
   computer.stop();
-  state = { text: await toml.text(), files, kind: "run", fresh: true };
+  state = { text, files, kind: "run", fresh: true };
   [diagram, computer.lifted] = [undefined, false];
   present();
   change();

@@ -16,6 +16,8 @@ export interface Link {
   kind?: Kind;
   /** Speed of modes, with its unit. */
   speed?: string;
+  /** Largest speed of a Campbell diagram, with its unit. */
+  most?: string;
   /** The version that made it. */
   version?: string;
 }
@@ -33,6 +35,7 @@ export async function write(link: Link): Promise<string> {
   }
   if (link.kind && link.kind !== "run") out.set("do", link.kind);
   if (link.speed) out.set("speed", link.speed);
+  if (link.most) out.set("most", link.most);
   if (link.version) out.set("v", link.version);
   return out.toString().replaceAll("%2F", "/").replaceAll("%3D", "=");
 }
@@ -53,6 +56,7 @@ export async function read(fragment: string): Promise<Link> {
     text: packed === null ? undefined : await unpack(packed),
     kind: kind as Kind | undefined,
     speed: short("speed"),
+    most: short("most"),
     version: short("v"),
   };
 }

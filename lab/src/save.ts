@@ -67,9 +67,9 @@ export async function film({ canvas }: Room, drawn: Drawn, signal: AbortSignal):
 const quoted = (text: string) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`);
 
 /** The command that computes the same. */
-export function command(kind: string, path: string, changes: string[], speed?: string): string {
+export function command(kind: string, path: string, changes: string[], speed: string | undefined, speeds: string): string {
   const options = changes.flatMap((change) => ["--set", quoted(change)]);
-  const at = kind === "modes" && speed ? ["--speed", quoted(speed)] : [];
+  const at = kind === "campbell" ? ["--speeds", quoted(speeds)] : kind === "modes" && speed ? ["--speed", quoted(speed)] : [];
   return ["flexion", kind, quoted(path), ...at, ...options].join(" ");
 }
 

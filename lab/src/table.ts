@@ -7,6 +7,7 @@ import { text } from "./text";
 export function stated(value: number | null | undefined, error?: number | null): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (error === null || error === undefined || !Number.isFinite(error)) return text(value, 5);
+  if (value === 0) return `0 ± ${text(error, 1)}`;
   if (error === 0) return `${text(value, 8)} ± 0`;
   const size = Math.abs(value);
   // No more than eight digits, however small the error.

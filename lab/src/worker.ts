@@ -33,6 +33,8 @@ self.onmessage = ({ data }: MessageEvent<{ module?: WebAssembly.Module; request?
     if (data.module) engine = new WebAssembly.Instance(data.module, { env }).exports as unknown as Exports;
     if (data.request) port.postMessage({ reply: reply(data.request), bytes: engine!.memory.buffer.byteLength });
   } catch (error) {
-    port.postMessage({ trap: String((error as Error).message ?? error) });
+    // A module that finds no memory ends at an instruction of this name.
+    const message = String((error as Error).message ?? error);
+    port.postMessage({ trap: message.startsWith("unreachable") ? "the case takes more memory than there is, or the engine has a fault" : message });
   }
 };

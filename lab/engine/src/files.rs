@@ -65,6 +65,6 @@ fn statics(
     progress: &mut Progress<'_>,
 ) -> Found<Result<(), OutputError>> {
     let reading = request.read().map_err(|problems| rejected(&problems))?;
-    let path = vibrating::statics(request, &reading, progress)?;
+    let (path, _) = vibrating::statics(request, &reading, progress)?;
     Ok(write_statics(directory, &path, &reading.resolved(), reading.title(), &path.cautions))
 }

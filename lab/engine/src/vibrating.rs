@@ -137,17 +137,23 @@ pub(crate) fn told_campbell(request: &Request, found: &Diagram) -> Value {
     let moves = |branch: &flexion::analysis::campbell::Branch| {
         branch.points.first().map(|point| point.mode.shares.dominant())
     };
+    // Its work ended it, and no user.
+    let message = incomplete.first().map(|why| why.trim_start_matches("stopped by the user: "));
     json!({
         "status": if incomplete.is_empty() { "finished" } else { "given-up" },
-        "message": incomplete.first(), "problems": [], "warnings": warnings,
+        "message": message, "problems": [], "warnings": warnings,
         "moves": campbell.branches.iter().map(moves).collect::<Vec<_>>(),
         "summary": campbell_json(campbell, resonances, &asked.units, warnings),
         "results": { "version": flexion_results::VERSION, "curves": curves },
     })
 }
 
-/// Equilibria under growing loads.
-pub(crate) fn statics(request: &Request, reading: &Reading, progress: &mut Progress<'_>) -> Found<LoadPath> {
+/// Equilibria under growing loads, and why they were given up, if they were.
+pub(crate) fn statics(
+    request: &Request,
+    reading: &Reading,
+    progress: &mut Progress<'_>,
+) -> Found<(LoadPath, Option<String>)> {
     let plan = Plan {
         points: count(request, "points", 1000, 2.0, 1e6)?,
         longest: positive(request, "step", 0.05)?,
@@ -160,21 +166,27 @@ pub(crate) fn statics(request: &Request, reading: &Reading, progress: &mut Progr
         work.add(POINT * unknowns, || json!({ "phase": "statics", "points": points, "factor": factor }))
             .is_continue()
     });
-    found.map_err(|error| match error {
+    let found = found.map_err(|error| match error {
         StaticsError::Case(problems) => rejected(&problems),
         error => json!({ "status": "failed", "message": error.to_string(), "problems": [] }),
-    })
+    })?;
+    Ok((found, work.given_up))
 }
 
 /// A path as a page shows it.
-pub(crate) fn told_statics(path: &LoadPath) -> Value {
+pub(crate) fn told_statics((path, given_up): &(LoadPath, Option<String>)) -> Value {
     let mut curves = Map::new();
     // To a page nothing is refused.
     let _ = put_statics(&mut curves, path);
     let channel = |channel: &flexion::system::Channel| json!({ "name": channel.name, "unit": channel.unit, "role": channel.role.name() });
+    // A path that was whole when its work ended lacks its errors alone.
+    let (status, message) = match (given_up, &path.end) {
+        (Some(why), Some(_)) => ("given-up", Some(why)),
+        (None, Some(end)) => ("failed", Some(end)),
+        (_, None) => ("finished", None),
+    };
     json!({
-        "status": if path.end.is_none() { "finished" } else { "failed" },
-        "message": path.end, "problems": [], "warnings": path.cautions,
+        "status": status, "message": message, "problems": [], "warnings": path.cautions,
         "columns": path.channels.iter().map(channel).collect::<Vec<_>>(),
         "summary": statics_json(path, &path.cautions),
         "results": { "version": flexion_results::VERSION, "curves": curves },

@@ -79,6 +79,17 @@ fn work_and_memory_have_limits() {
     assert!(run["summary"]["end_time"].as_f64().unwrap() > 0.0);
     let modes = ask(json!({ "do": "modes", "case": SPIN_UP, "limits": { "work": 10 } }));
     assert_eq!(modes["status"], "given-up");
+    // The limit ended them, and no user.
+    let case = include_str!("../../../verification/space_statics/case.toml");
+    let of = |work: f64| ask(json!({ "do": "statics", "case": case, "limits": { "work": work } }));
+    let refused = [1e3, 2e3, 5e3, 1e4, 2e4, 5e4].map(of);
+    let paths: Vec<_> = refused.iter().filter(|reply| reply["results"].is_object()).collect();
+    assert!(paths.iter().any(|path| path["status"] == "given-up"), "{refused:?}");
+    assert!(paths.iter().all(|path| !path["message"].to_string().contains("user")), "{paths:?}");
+    assert!(
+        paths.iter().all(|path| path["message"].is_null() == (path["status"] == "finished")),
+        "{paths:?}"
+    );
 }
 
 #[test]
