@@ -311,7 +311,8 @@ law = { kind = 'constraint', restitution = 0.5 }
     ];
     for method in methods {
         let run = written::finished(&written::reading(case, &[&format!("integrator={{{method}}}")]));
-        assert!(!run.warnings.iter().any(|w| w.contains("energy")), "{method}: {:?}", run.warnings);
+        // What steps damp that resolve no vibration is said.
+        assert!(!run.warnings.iter().any(|w| w.contains("energy has grown")), "{method}: {:?}", run.warnings);
         let column = |name: &str| run.trajectory.column(name).unwrap();
         let (dissipated, balance) = (column("energy.dissipated"), column("energy.balance"));
         let taken = dissipated.last().unwrap();

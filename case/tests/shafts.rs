@@ -222,3 +222,22 @@ fn the_search_for_a_steady_rotation_can_be_stopped() {
     assert_eq!(found.campbell.speeds, [0.0], "what was found is kept");
     assert!(found.incomplete.iter().any(|why| why.contains("stopped")), "{:?}", found.incomplete);
 }
+
+/// A table with stiffness in shear and none in torsion makes no beam with shear, which twists.
+#[test]
+fn no_stiffness_in_torsion_is_made_up_for_a_beam_with_shear() {
+    let folder = tempfile::tempdir().unwrap();
+    let columns = "x,mass,EA,EI-flap,EI-chord,GA-chord,GA-flap\n0,100,2e9,3e9,6e9,4e8,2e8\n30,60,1e9,1e9,2e9,2e8,1e8\n";
+    std::fs::write(folder.path().join("d.csv"), columns).unwrap();
+    let case = |shear: bool| {
+        let text = format!(
+            "rotation = {{ axis = [0, 0, 1] }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 'b'\nroot = 'clamped'\nup = [0, 1, 0]\n\
+             start = [1, 0, 0]\nshear = {shear}\nsection = {{ kind = 'deck', file = 'd.csv', format = 'csv' }}\n"
+        );
+        parse(text, &folder.path().join("case.toml"), &[])
+    };
+    let refused = case(true).err().unwrap().to_string();
+    assert!(refused.contains("says nothing of torsion") && refused.contains("GJ"), "{refused}");
+    let held = case(false).unwrap_or_else(|problems| panic!("{problems}"));
+    assert!(held.case.cautions.iter().any(|caution| caution.contains("its torsion is held")), "{:?}", held.case.cautions);
+}

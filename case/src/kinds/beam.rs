@@ -453,7 +453,12 @@ fn make(k: Written, c: &Context<'_>) -> Made<Beam> {
             k.name
         ));
     }
-    // One that is silent on torsion too is refused for its shear.
+    if k.shear && section.deck.as_ref().is_some_and(|(deck, _)| deck.silent.torsion && !deck.silent.shear) {
+        return Err(Fault::new("section", "this deck says nothing of torsion, and a beam with shear twists")
+            .help("give the deck its torsional stiffness GJ, or leave `shear` out: torsion is held then")
+            .into());
+    }
+    // Another that is silent on torsion is refused for its shear.
     if !stiff && !k.shear && (torsion || !section.is_blade) {
         if !k.planar {
             let message = "this section says nothing of torsion, and a beam in space twists";

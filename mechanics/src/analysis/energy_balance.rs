@@ -29,7 +29,8 @@
 //! ```
 //!
 //! In [bursts](super::transient) the steps of a nonsmooth method follow contacts that chatter, and do not resolve the vibrations that impacts excite and dampers take
-//! within a step: the power at both ends of it is too large. Where the balance would leave more energy than there is, dampers have taken that much less.
+//! within a step: the mean velocity does not have them, and the power at both ends of the step is too large. It is taken by the trapezium rule, and where the balance would
+//! leave more energy than there is, dampers have taken that much less.
 //!
 //! A nonsmooth method knows no time of an impact within its step. It counts at the end of the step, and so does what the step does and loses:
 //! states recorded inside the step are those before the impact, to which the power of the step before belongs.
@@ -301,7 +302,9 @@ impl Integral {
         if let Some(lost) = lost {
             power.contact += lost / (to.t - from.t) - rubbing(system, middle, rates);
         }
-        if power.dissipated != 0.0 && *damped != middle.v {
+        if power.dissipated != 0.0 && self.burst.is_some() {
+            power.dissipated = 0.5 * [from, to].map(|s| system.power(s).dissipated).iter().sum::<f64>();
+        } else if power.dissipated != 0.0 && *damped != middle.v {
             damped.iter_mut().zip(&middle.v).for_each(|(w, v)| *w -= v);
             for (part, weight) in [(0.5, 0.5), (-1.0, -0.5)] {
                 middle.v.iter_mut().zip(damped.iter()).for_each(|(v, delta)| *v += part * delta);
