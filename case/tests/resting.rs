@@ -50,7 +50,10 @@ fn a_beam_on_a_hinge_lies_with_its_end_on_the_floor() {
             let slope = 9.81 * chord.cos() * 0.4_f64.powi(3) / (24.0 * stiffness);
             assert!((angle + chord + slope).abs() < 0.01 * slope, "{height} {stiffness}: {angle}");
             // But for rounding of EA.
-            assert!((hinge + floor - WEIGHT).abs() < 1e8 * f64::EPSILON, "{height} {stiffness}: {hinge} {floor}");
+            assert!(
+                (hinge + floor - WEIGHT).abs() < 1e8 * f64::EPSILON,
+                "{height} {stiffness}: {hinge} {floor}"
+            );
             // Its centre is off the chord by less than L times the slope.
             assert!(
                 (floor / WEIGHT - 0.5).abs() < slope * (chord.tan().abs() + slope) + 1e-9,

@@ -227,7 +227,8 @@ fn the_search_for_a_steady_rotation_can_be_stopped() {
 #[test]
 fn no_stiffness_in_torsion_is_made_up_for_a_beam_with_shear() {
     let folder = tempfile::tempdir().unwrap();
-    let columns = "x,mass,EA,EI-flap,EI-chord,GA-chord,GA-flap\n0,100,2e9,3e9,6e9,4e8,2e8\n30,60,1e9,1e9,2e9,2e8,1e8\n";
+    let columns =
+        "x,mass,EA,EI-flap,EI-chord,GA-chord,GA-flap\n0,100,2e9,3e9,6e9,4e8,2e8\n30,60,1e9,1e9,2e9,2e8,1e8\n";
     std::fs::write(folder.path().join("d.csv"), columns).unwrap();
     let case = |shear: bool| {
         let text = format!(
@@ -239,5 +240,9 @@ fn no_stiffness_in_torsion_is_made_up_for_a_beam_with_shear() {
     let refused = case(true).err().unwrap().to_string();
     assert!(refused.contains("says nothing of torsion") && refused.contains("GJ"), "{refused}");
     let held = case(false).unwrap_or_else(|problems| panic!("{problems}"));
-    assert!(held.case.cautions.iter().any(|caution| caution.contains("its torsion is held")), "{:?}", held.case.cautions);
+    assert!(
+        held.case.cautions.iter().any(|caution| caution.contains("its torsion is held")),
+        "{:?}",
+        held.case.cautions
+    );
 }
