@@ -397,13 +397,13 @@ fn of_a_run(n: usize) -> [usize; 2] {
     [built, most.1 - before]
 }
 
-/// Twice the elements, twice the memory: that of an element.
+/// Twice the elements, twice the memory: that of an element. Some 170 bytes are velocities by which the method lets dampers act, for the balance of energy.
 #[test]
 fn an_element_in_space_takes_little_memory_of_a_run() {
     let [small, large] = [200, 400].map(of_a_run);
     let [built, run] = [0, 1].map(|i| (large[i] - small[i]) as f64 / 200.0);
     println!("an element: {built} bytes of the system, {run} in a run of generalized-alpha");
-    assert!(run <= 4000.0, "{run} bytes an element, {built} of them in the system");
+    assert!(run <= 4200.0, "{run} bytes an element, {built} of them in the system");
 }
 
 /// The counter itself counts.
