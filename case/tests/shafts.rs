@@ -246,3 +246,69 @@ fn no_stiffness_in_torsion_is_made_up_for_a_beam_with_shear() {
         held.case.cautions
     );
 }
+
+/// A thin round cantilever with EI = ρA = L = 1, parallel to the axis and beside it.
+fn beside(distance: f64) -> Reading {
+    let radius: f64 = 0.001;
+    let (modulus, density) = (4.0 / (PI * radius.powi(4)), 1.0 / (PI * radius * radius));
+    read(format!(
+        "rotation = {{ axis = [1, 0, 0] }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 's'\nlength = 1\nstart = [0, 0, {distance}]\n\
+         up = [0, 1, 0]\nroot = 'clamped'\nelements = 12\n\
+         section = {{ kind = 'circle', modulus = {modulus}, density = {density}, radius = {radius} }}\n"
+    ))
+}
+
+/// Branches, critical speeds and ranges near Ω of a diagram from rest to 8 rad/s.
+fn diagram(reading: &Reading, speeds: usize) -> flexion_case::Diagram {
+    let speeds = (0..speeds).map(|i| 8.0 * i as f64 / (speeds - 1) as f64).collect();
+    let units = Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS };
+    let request =
+        DiagramRequest { speeds, count: 3, revolutions: 1, margin: 5.0, free_hub: false, threads: 1, units };
+    reading.campbell(&request, &|_| true).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Beyond its critical speed a cantilever beside the axis has several equilibria: the one followed from rest is taken, whatever the speeds. The frequencies of 0.1 are those
+/// of a program of its own by automatic differentiation of the energy, in 400 steps of the speed.
+#[test]
+fn the_equilibrium_followed_from_rest_does_not_depend_on_the_speeds() {
+    for (distance, known) in [(0.03, None), (0.1, Some([2.805, 10.051, 25.39])), (0.3, None), (1e-5, None)] {
+        let reading = beside(distance);
+        let (expected, _) = modes(&reading, 8.0, 3);
+        let expected: Vec<f64> = if distance < 0.01 { Vec::new() } else { expected };
+        if let Some(known) = known {
+            for (found, known) in expected.iter().zip(known) {
+                assert!((found / known - 1.0).abs() < 5e-4, "{expected:?}");
+            }
+        }
+        for speeds in [2, 3, 9, 17] {
+            let found = diagram(&reading, speeds).campbell;
+            assert!(found.criticals.is_empty(), "{distance}, {speeds}: {:?}", found.criticals);
+            let mut last: Vec<f64> =
+                found.branches.iter().filter_map(|b| b.points.last()).map(|p| p.mode.frequency()).collect();
+            last.sort_by(f64::total_cmp);
+            for (found, expected) in last.iter().zip(&expected) {
+                assert!((found / expected - 1.0).abs() < 1e-7, "{distance}, {speeds}: {last:?} {expected:?}");
+            }
+        }
+    }
+}
+
+/// On the axis, but for rounding, it has its critical speed, once; its ranges near Ω are those of the closed forms |3.516 ± Ω| whatever the speeds.
+#[test]
+fn a_straight_shaft_has_one_critical_speed_and_the_ranges_of_its_whirls() {
+    let first = 3.516015;
+    for distance in [0.0, 1e-13, 1e-10] {
+        for speeds in [2, 5, 17] {
+            let found = diagram(&beside(distance), speeds);
+            let [critical] = found.campbell.criticals.as_slice() else {
+                panic!("{distance}, {speeds}: {:?}", found.campbell.criticals)
+            };
+            assert!((critical.speed / first - 1.0).abs() < 2e-6, "{distance}: {critical:?}");
+            // The forward whirl ω₁ − Ω meets 0.95 Ω and 1.05 Ω.
+            let whirl = found.resonances.iter().find(|r| r.from < 0.6 * first).unwrap();
+            for (found, side) in [(whirl.from, 1.05), (whirl.to, 0.95)] {
+                assert!((found * (1.0 + side) / first - 1.0).abs() < 1e-5, "{distance}, {speeds}: {whirl:?}");
+            }
+        }
+    }
+}

@@ -3,9 +3,9 @@
 use crate::run::stop_on_ctrl_c;
 use crate::vibration::{self, Options, report};
 use crate::{Outcome, case, screen};
-use flexion::analysis::campbell::Crossing;
+use flexion::analysis::campbell::{Crossing, Resonance};
 use flexion_case::{Diagram, DiagramRequest, Reading, Speeds, VibrationError};
-use flexion_results::{Artifact, Directory, Resonance};
+use flexion_results::{Artifact, Directory};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;

@@ -29,7 +29,6 @@ mod page;
 pub mod plot;
 mod provenance;
 mod refusal;
-mod resonance;
 mod results;
 mod run;
 #[cfg(test)]
@@ -68,7 +67,6 @@ pub use self::obstacles::Drawn;
 #[cfg(feature = "page")]
 pub use self::page::view_page;
 pub use self::provenance::resolved_case;
-pub use self::resonance::{Resonance, resonances};
 pub use self::results::{Results, select};
 pub use self::run::{Attachments, write_run};
 pub use self::scene::{Part, Scene};

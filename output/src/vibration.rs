@@ -4,8 +4,8 @@ use super::arrays::{Arrays, Numbers, list};
 use super::frequencies::{Frequencies, Units};
 #[cfg(feature = "figures")]
 use super::plot::{Figure, campbell_figure, modes_figure};
-use super::{Artifact, Directory, OutputError, Resonance, VERSION, resolved_case};
-use flexion::analysis::campbell::{Branch, Campbell, Instability};
+use super::{Artifact, Directory, OutputError, VERSION, resolved_case};
+use flexion::analysis::campbell::{Branch, Campbell, Instability, Resonance};
 use flexion::analysis::modes::{Mode, Modes};
 use num_complex::Complex64;
 use serde_json::{Value, json};

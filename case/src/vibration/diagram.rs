@@ -2,8 +2,8 @@
 
 use super::{COARSE, VibrationError, campbell, coarse, rounded, unestimated};
 use crate::reading::Reading;
-use flexion::analysis::campbell::{Branch, Campbell, Instability, NoCampbell, Plan};
-use flexion_results::{Directory, OutputError, Resonance, Units, resonances, write_campbell};
+use flexion::analysis::campbell::{Branch, Campbell, Instability, NoCampbell, Plan, Resonance, resonances};
+use flexion_results::{Directory, OutputError, Units, write_campbell};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Modes above those asked for that are followed, for they may come down.

@@ -17,6 +17,7 @@ use super::degenerate::align;
 pub use super::diagram::{
     Branch, Campbell, Critical, Crossing, HubState, Instability, NoCampbell, Plan, Point,
 };
+pub use super::resonance::{Resonance, resonances};
 use super::rotation::NoRotation;
 use super::solved::Solved;
 pub use super::speeds::{Block, Speeds};

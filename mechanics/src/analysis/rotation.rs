@@ -1,13 +1,15 @@
 //! Steady rotation: the equilibrium in the frame of a hub that rotates at a constant speed.
 
-use super::equilibrium::{Effort, NoEquilibrium, direct};
-use super::stability::{Stability, stability};
+use super::equilibrium::{Effort, NoEquilibrium, direct, nearby};
+use super::stability::{Stability, negative_parts, stability};
 use crate::linalg::eigen::EigenError;
 use crate::system::{Limit, NotSet, Parameter, State, System};
 use std::ops::ControlFlow;
 
 /// Smallest part of the way to a speed by which continuation goes on.
-const SMALLEST: f64 = 1e-4;
+const SMALLEST: f64 = 1e-7;
+/// Step, over the speed, across which the number of negative directions of the stiffness may change.
+const CRITICAL: f64 = 1e-5;
 /// Relative accuracy of the speed at which an equilibrium ends.
 const ACCURACY: f64 = 1e-6;
 
@@ -91,8 +93,12 @@ impl NoRotation {
 /// for `from` = 0 without loads), to that at `to`. On return the system rotates steadily at `to`
 /// with its hub held, and v = a = 0.
 ///
-/// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω: the speed is raised by parts that grow and shrink as
-/// Newton's method converges. `watch` is called for every level of the loads that is tried on the way, and ends the search by `false`.
+/// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω, under all of the loads; where they have none at `from`, they grow at the first speed
+/// that allows one. A step of the speed is divided until the increments of Newton's method shrink fourfold, and until K has as many
+/// negative directions behind it as before: beyond a critical speed another equilibrium lies nearby, on the other side of the axis. A step
+/// of 1e-5 of the speed passes a critical one, so that a shaft that lies on the axis, but for 1e-9 of its length, stays straight; from 1e-7 on
+/// it bends outwards, and has no critical speed. `watch` is called for every equilibrium
+/// that is tried on the way, and ends the search by `false`.
 ///
 /// # Errors
 /// [`NoRotation`] when the equilibrium ends on the way, or the search is ended.
@@ -106,10 +112,12 @@ pub fn rotate(
     system.hold(true);
     let mut goes_on = true;
     let mut good = state.clone();
-    let (mut reached, mut part) = (0.0, 1.0);
     let mut effort = Effort::default();
     let speed = |share: f64| if share >= 1.0 { to } else { from + share * (to - from) };
-    while reached < 1.0 {
+    // Negative directions of K at the last equilibrium.
+    let mut before = None;
+    let (mut reached, mut part) = (0.0, 0.0);
+    loop {
         let next = f64::min(reached + part, 1.0);
         let set = match system.set(Parameter::Speed, speed(next)) {
             Ok(()) => Ok(()),
@@ -123,31 +131,44 @@ pub fn rotate(
             goes_on = goes_on && watch();
             if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
-        match set.and_then(|()| direct(system, state, &mut level)) {
+        let found = set.and_then(|()| match before {
+            None => direct(system, state, &mut level),
+            Some(_) => nearby(system, state, &mut level),
+        });
+        let source = match found {
             Ok(spent) => {
                 effort.levels += spent.levels;
                 effort.iterations += spent.iterations;
-                good.copy_from(state);
-                reached = next;
-                part *= 2.0;
-            }
-            Err(source) => {
-                state.copy_from(&good);
-                part = 0.25 * (next - reached);
-                if part < SMALLEST || !goes_on {
-                    let reached = speed(reached);
-                    if !goes_on {
-                        let _ = system.set(Parameter::Speed, reached);
-                        return Err(NoRotation::Stopped { asked: to, reached });
+                let now = Some(negative_parts(system, state));
+                let (first, last) = (speed(reached), speed(next));
+                let wide = (last - first).abs() > CRITICAL * first.abs().max(last.abs())
+                    && next - reached > SMALLEST;
+                if before.is_none() || before == now || !wide {
+                    good.copy_from(state);
+                    before = now;
+                    reached = next;
+                    part = if part > 0.0 { 2.0 * part } else { 1.0 };
+                    if last == to {
+                        return Ok(effort);
                     }
-                    let why = system.explain(state);
-                    let _ = system.set(Parameter::Speed, reached);
-                    return Err(NoRotation::Lost { asked: to, reached, source, why: why.map(Box::new) });
+                    continue;
                 }
+                None
             }
+            Err(source) => Some(source),
+        };
+        state.copy_from(&good);
+        part = if part > 0.0 { 0.25 * (next - reached) } else { 1.0 };
+        if let Some(source) = source.filter(|_| part < SMALLEST || !goes_on) {
+            let reached = speed(reached);
+            let why = if goes_on { system.explain(state) } else { None };
+            let _ = system.set(Parameter::Speed, reached);
+            return Err(match goes_on {
+                true => NoRotation::Lost { asked: to, reached, source, why: why.map(Box::new) },
+                false => NoRotation::Stopped { asked: to, reached },
+            });
         }
     }
-    Ok(effort)
 }
 
 fn because(why: &Option<Box<Limit>>) -> String {

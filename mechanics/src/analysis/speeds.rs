@@ -198,7 +198,8 @@ impl<'a> Speeds<'a> {
     }
 
     /// The speeds between those of two solutions at which a number that depends on the equilibrium changes, each with the numbers below
-    /// and above it: by bisection. Ends early where there is no equilibrium in between.
+    /// and above it: by bisection. About a critical speed of a shaft that lies a little beside its axis the equilibria that are followed from
+    /// below and from above are two: from there on the number is that of their mean. Ends early where there is no equilibrium in between.
     pub(super) fn changes(
         &mut self,
         [from, to]: [&Solved; 2],
@@ -210,21 +211,62 @@ impl<'a> Speeds<'a> {
         while low.1 != last {
             let mut high = (to.speed, last);
             let mut beyond = to.equilibrium.clone();
+            let mut apart = false;
             while high.0 - low.0 > ACCURACY * high.0 {
                 let middle = 0.5 * (low.0 + high.0);
-                let mut next = at.clone();
-                let turned = rotate(self.system.as_mut(), &mut next, low.0, middle, &mut watch(self.goes_on));
-                let judged = turned.ok().and_then(|_| judge(self.system.as_mut(), &next).ok());
-                match judged.map(|(stability, negative)| number(stability, negative)) {
-                    Some(n) if n == low.1 => (low.0, at) = (middle, next),
-                    Some(n) => (high, beyond) = ((middle, n), next),
-                    None => return found,
+                let next =
+                    if apart { Some(self.mean(&at, &beyond)) } else { self.followed(&at, low.0, middle) };
+                let Some((next, n)) = next.and_then(|next| self.counted(next, middle, &number)) else {
+                    return found;
+                };
+                if n != low.1 {
+                    (high, beyond) = ((middle, n), next);
+                    continue;
                 }
+                if !apart {
+                    let down = self.followed(&beyond, high.0, middle);
+                    let down = down.and_then(|down| self.counted(down, middle, &number));
+                    if down.is_some_and(|(_, m)| m != n) {
+                        apart = true;
+                        continue;
+                    }
+                }
+                (low.0, at) = (middle, next);
             }
             found.push((0.5 * (low.0 + high.0), [low.1, high.1]));
             (low, at) = (high, beyond);
         }
         found
+    }
+
+    /// The equilibrium at a speed that is followed from that at another.
+    fn followed(&mut self, at: &State, from: f64, to: f64) -> Option<State> {
+        let mut next = at.clone();
+        rotate(self.system.as_mut(), &mut next, from, to, &mut watch(self.goes_on)).ok()?;
+        Some(next)
+    }
+
+    /// The configuration in the middle of two.
+    fn mean(&self, a: &State, b: &State) -> State {
+        let mut out = a.clone();
+        let mut d = vec![0.0; a.v.len()];
+        self.system.difference(&a.q, &b.q, &mut d);
+        d.iter_mut().for_each(|d| *d *= 0.5);
+        self.system.retract(&a.q, &d, &mut out.q);
+        out.lambda.iter_mut().zip(&b.lambda).for_each(|(a, b)| *a = 0.5 * (*a + b));
+        out
+    }
+
+    /// A state, and the number that depends on it.
+    fn counted(
+        &mut self,
+        state: State,
+        speed: f64,
+        number: &impl Fn(Stability, usize) -> usize,
+    ) -> Option<(State, usize)> {
+        self.system.set(Parameter::Speed, speed).ok()?;
+        let (stability, negative) = judge(self.system.as_mut(), &state).ok()?;
+        Some((state, number(stability, negative)))
     }
 
     /// Gives the modes of all branches their shapes.

@@ -1,6 +1,10 @@
 //! Speeds at which a frequency is near a multiple of the speed.
 
-use flexion::analysis::campbell::{Campbell, Point};
+use super::diagram::Campbell;
+use super::polynomial::Polynomial;
+
+/// Relative distance of two speeds that count as one: the slope between nearer ones would be rounding.
+const ONE: f64 = 1e-6;
 
 /// A range of speeds in which a mode is near a line ω = k Ω.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,61 +19,74 @@ pub struct Resonance {
     pub to: f64,
 }
 
-/// The ranges of speeds in which |ω − k Ω| ≤ `margin` · k Ω, for k from 1 to `revolutions`; between the speeds of the
-/// diagram ω² is linear in Ω², as of a stiffness that grows with the centrifugal force.
+/// The ranges of speeds in which |ω − k Ω| ≤ `margin` · k Ω, for k from 1 to `revolutions`.
+///
+/// ω² is the polynomial of Ω through the two points of the branch on either side and its crossings between them, of degree three but for
+/// crossings: that of a stiffness which grows with the centrifugal force, ω² = a + b Ω², and that of a whirl, ω² = (a ± Ω)², are
+/// quadratic. Through two points it is linear in Ω².
 pub fn resonances(campbell: &Campbell, revolutions: u32, margin: f64) -> Vec<Resonance> {
     let mut out: Vec<Resonance> = Vec::new();
     for (branch, b) in campbell.branches.iter().enumerate() {
         for k in 1..=revolutions {
+            let crossings = campbell.crossings.iter().filter(|c| (c.branch, c.revolutions) == (branch, k));
+            let crossings = crossings.map(|c| [c.speed, square(f64::from(k) * c.speed)]);
+            let points = b.points.iter().map(|p| [p.speed, square(p.mode.frequency())]);
+            let mut points: Vec<[f64; 2]> = points.chain(crossings).collect();
+            points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            points.dedup_by(|b, a| b[0] - a[0] <= ONE * b[0]);
             let mut open = false;
-            for (a, b) in b.points.iter().zip(b.points.iter().skip(1)) {
-                let Some((from, to)) = near(a, b, f64::from(k), margin) else {
+            for i in 1..points.len() {
+                let Some((from, to)) = near(&points, i, f64::from(k), margin) else {
                     open = false;
                     continue;
                 };
                 match out.last_mut() {
-                    Some(last) if open && from <= a.speed => last.to = to,
+                    Some(last) if open && from <= points[i - 1][0] => last.to = to,
                     _ => out.push(Resonance { branch, revolutions: k, from, to }),
                 }
-                open = to >= b.speed;
+                open = to >= points[i][0];
             }
         }
     }
     out
 }
 
-/// The speeds between two points at which ω lies between (1 ± `margin`) k Ω, with ω² linear in Ω² ≥ 0.
-fn near(a: &Point, b: &Point, k: f64, margin: f64) -> Option<(f64, f64)> {
-    // What has to be positive, at both points.
-    let inside = |p: &Point| {
-        let square = |x: f64| x * x;
-        let (frequency, line) = (square(p.mode.frequency()), square(k * p.speed));
-        [frequency - square(1.0 - margin) * line, square(1.0 + margin) * line - frequency]
-    };
-    let (mut from, mut to) = (0.0_f64, 1.0_f64);
-    for (first, last) in inside(a).into_iter().zip(inside(b)) {
-        let zero = first / (first - last);
-        match (first >= 0.0, last >= 0.0) {
+fn square(x: f64) -> f64 {
+    x * x
+}
+
+/// The speeds between the point before `i` and that at which ω lies between (1 ± `margin`) k Ω.
+fn near(points: &[[f64; 2]], i: usize, k: f64, margin: f64) -> Option<(f64, f64)> {
+    let (mut from, mut to) = (points[i - 1][0], points[i][0]);
+    let around = &points[i.saturating_sub(2)..(i + 2).min(points.len())];
+    for (sign, side) in [(1.0, 1.0 - margin), (-1.0, 1.0 + margin)] {
+        // What has to be positive.
+        let inside = |[speed, frequency]: [f64; 2]| sign * (frequency - square(side * k * speed));
+        let zero = || match around {
+            [a, b] => {
+                let (first, last) = (inside(*a), inside(*b));
+                (square(a[0]) + first / (first - last) * (square(b[0]) - square(a[0]))).sqrt()
+            }
+            _ => {
+                let values: Vec<_> = around.iter().map(|p| (p[0], inside(*p))).collect();
+                Polynomial::through(&values).zero(points[i - 1][0], points[i][0])
+            }
+        };
+        match (inside(points[i - 1]) >= 0.0, inside(points[i]) >= 0.0) {
             (true, true) => {}
-            (true, false) => to = to.min(zero),
-            (false, true) => from = from.max(zero),
+            (true, false) => to = to.min(zero()),
+            (false, true) => from = from.max(zero()),
             (false, false) => return None,
         }
     }
-    let [first, last] = [a.speed * a.speed, b.speed * b.speed];
-    let at = |t: f64| match t {
-        0.0 => a.speed,
-        1.0 => b.speed,
-        _ => (first + t * (last - first)).sqrt(),
-    };
-    (from < to).then(|| (at(from), at(to)))
+    (from < to).then_some((from, to))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::diagram::{Branch, Point};
+    use super::super::modes::{Mode, Shape, Shares};
     use super::*;
-    use flexion::analysis::campbell::Branch;
-    use flexion::analysis::modes::{Mode, Shape, Shares};
     use num_complex::Complex64;
 
     fn diagram(frequency: impl Fn(f64) -> f64) -> Campbell {
