@@ -75,6 +75,15 @@ pub(super) fn forms(from: &Solved, i: usize, to: &Solved, j: usize) -> [Complex6
     [same, conjugate]
 }
 
+/// Whether the mode `i` goes on as the mode `j` with −ω: its frequency passes through zero in between.
+pub(super) fn passes_zero(from: &Solved, i: usize, to: &Solved, j: usize) -> bool {
+    if norm(from, i).is_none() || norm(to, j).is_none() {
+        return false;
+    }
+    let [same, conjugate] = forms(from, i, to, j);
+    conjugate.norm_sqr() > same.norm_sqr()
+}
+
 /// Likeness of mode `i` at one speed and mode `j` at another, from 0 to 1.
 pub(super) fn mac(from: &Solved, i: usize, to: &Solved, j: usize) -> f64 {
     let (Some(n), Some(m)) = (norm(from, i), norm(to, j)) else {

@@ -2,7 +2,7 @@
 
 use super::degenerate::are_equal;
 use super::diagram::{Branch, Point};
-use super::mac::mac;
+use super::mac::{mac, passes_zero};
 use super::modes::Mode;
 use super::solved::Solved;
 
@@ -40,17 +40,20 @@ fn certain(matches: &[Match], count: usize) -> Vec<(usize, usize)> {
     certain.filter_map(|(i, m)| Some((i, m.to?))).collect()
 }
 
-/// Whether two of the first `count` modes change their order: they cross, or veer so far that the step passes over it. Modes that are of one
-/// eigenvalue at both speeds have no order.
+/// Whether two of the first `count` modes change their order, or one passes through zero: they cross, or veer so far that the step passes over it.
+/// Modes that are of one eigenvalue at both speeds have no order.
 pub(super) fn changes_order(from: &Solved, to: &Solved, matches: &[Match], count: usize) -> bool {
     let are_one = |of: &Solved, i: usize, j: usize| are_equal(of.modes[i].eigenvalue, of.modes[j].eigenvalue);
-    certain(matches, count).windows(2).any(|pair| {
-        let [(a, c), (b, d)] = [pair[0], pair[1]];
-        c > d && !(are_one(from, a, b) && are_one(to, c, d))
-    })
+    let certain = certain(matches, count);
+    certain.iter().any(|(a, c)| passes_zero(from, *a, to, *c))
+        || certain.windows(2).any(|pair| {
+            let [(a, c), (b, d)] = [pair[0], pair[1]];
+            c > d && !(are_one(from, a, b) && are_one(to, c, d))
+        })
 }
 
-/// The lowest speed at which two of the first `count` modes are expected to change their order, if their eigenvalues are linear in between.
+/// The lowest speed at which two of the first `count` modes are expected to change their order, or one to pass through zero, if their
+/// eigenvalues are linear in between.
 pub(super) fn crossing(from: &Solved, to: &Solved, matches: &[Match], count: usize) -> Option<f64> {
     let size = |of: &Solved, i: usize| of.modes[i].eigenvalue.norm();
     let part = |pair: &[(usize, usize)]| {
@@ -58,7 +61,12 @@ pub(super) fn crossing(from: &Solved, to: &Solved, matches: &[Match], count: usi
         let [before, behind] = [size(from, b) - size(from, a), size(to, d) - size(to, c)];
         (c > d).then_some(before / (before - behind)).filter(|part| part.is_finite())
     };
-    let first = certain(matches, count).windows(2).filter_map(part).reduce(f64::min)?;
+    let zero = |(a, c): &(usize, usize)| {
+        passes_zero(from, *a, to, *c).then(|| size(from, *a) / (size(from, *a) + size(to, *c)))
+    };
+    let certain = certain(matches, count);
+    let first =
+        certain.windows(2).filter_map(part).chain(certain.iter().filter_map(zero)).reduce(f64::min)?;
     Some(from.speed + first * (to.speed - from.speed))
 }
 
