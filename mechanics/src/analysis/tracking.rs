@@ -45,7 +45,10 @@ fn certain(matches: &[Match], count: usize) -> Vec<(usize, usize)> {
 pub(super) fn changes_order(from: &Solved, to: &Solved, matches: &[Match], count: usize) -> bool {
     let are_one = |of: &Solved, i: usize, j: usize| are_equal(of.modes[i].eigenvalue, of.modes[j].eigenvalue);
     let certain = certain(matches, count);
-    certain.iter().any(|(a, c)| passes_zero(from, *a, to, *c))
+    // At rest no gyroscopic forces tell a whirl from its mirror image; in the rotating frame it slows down by as much as the speed at most.
+    let begins = from.gyroscopic.is_empty() && !to.gyroscopic.is_empty();
+    let slow = |a: usize| begins && from.modes[a].frequency() < to.speed - from.speed;
+    certain.iter().any(|(a, c)| passes_zero(from, *a, to, *c) || slow(*a))
         || certain.windows(2).any(|pair| {
             let [(a, c), (b, d)] = [pair[0], pair[1]];
             c > d && !(are_one(from, a, b) && are_one(to, c, d))
