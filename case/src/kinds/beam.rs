@@ -315,12 +315,32 @@ impl Beam {
         let of = self.blade.resultants(middle);
         match error {
             BeamError::Section { .. } if self.shear && !(of.flap_inertia > 0.0 && of.chord_inertia > 0.0) => {
-                let keys = if self.section.deck.is_some() {
-                    "the columns `inertia-flap` and `inertia-chord` of its table"
+                let of_deck = self.section.deck.is_some();
+                let keys = if of_deck {
+                    ["the column `inertia-chord`", "the column `inertia-flap`"]
                 } else {
-                    "`rotary-inertia` and `rotary-inertia-across` of `general`"
+                    ["`rotary-inertia`", "`rotary-inertia-across`"]
                 };
-                fault.help(format!("a section of a beam with shear has rotary inertia: give {keys}"))
+                let each = [
+                    (of.chord_inertia, of.chord_stiffness, keys[0]),
+                    (of.flap_inertia, of.flap_stiffness, keys[1]),
+                ];
+                let lacking = each.into_iter().filter(|(inertia, ..)| !(*inertia > 0.0));
+                let (mut names, mut sizes) = (Vec::new(), Vec::new());
+                for (_, stiffness, key) in lacking {
+                    names.push(key);
+                    sizes.push(format!("{:.4e} kg·m for {key}", of.mass * stiffness / of.axial_stiffness));
+                }
+                let message = format!(
+                    "beam `{}` has shear, in which its sections turn on their own, and its section has no rotary inertia: {} is 0",
+                    self.name,
+                    names.join(" and ")
+                );
+                let help = format!(
+                    "give the moment of inertia per length ρI; of one material it is m EI/EA, here {}; without shear, leave `shear` out",
+                    sizes.join(" and ")
+                );
+                Fault::new("section", message).help(help)
             }
             BeamError::Section { .. } if !self.shear && !(self.properties(middle).inertia[0] > 0.0) => fault.help(
                 "give `polar-inertia` of the beam, the moment of inertia per length about the tangent [kg·m], which the section does not \
