@@ -141,7 +141,8 @@ fn errors_by_the_mesh_that_are_missing_have_a_reason() {
 #[test]
 fn a_diagram_of_overdamped_motions_says_that_nothing_vibrates() {
     const BAR: &str = "
-beam = { length = 1, damping.stiffness = 1e3 }
+beam = { length = 1 }
+damping = { stiffness = 1e3 }
 section = { kind = 'rectangle', height = 0.01, width = 0.02, modulus = 7e10, density = 2700 }
 model.coupling = 'exact'
 basis.elements = 4

@@ -29,7 +29,11 @@ impl Speed {
     pub fn read(text: &str) -> Result<Speed, String> {
         let text = text.trim();
         if let Ok(x) = text.parse::<f64>() {
-            return if x.is_finite() { Ok(Speed::Plain(x)) } else { Err(format!("`{text}` is no speed: write a finite number")) };
+            return if x.is_finite() {
+                Ok(Speed::Plain(x))
+            } else {
+                Err(format!("`{text}` is no speed: write a finite number"))
+            };
         }
         match units::parse(text, &units::ANGULAR_SPEED) {
             Ok(x) if text.ends_with("rpm") => Ok(Speed::Rpm(x)),
