@@ -315,30 +315,10 @@ impl Beam {
         let of = self.blade.resultants(middle);
         match error {
             BeamError::Section { .. } if self.shear && !(of.flap_inertia > 0.0 && of.chord_inertia > 0.0) => {
-                let of_deck = self.section.deck.is_some();
-                let keys = if of_deck {
-                    ["the column `inertia-chord`", "the column `inertia-flap`"]
-                } else {
-                    ["`rotary-inertia`", "`rotary-inertia-across`"]
-                };
-                let each = [
-                    (of.chord_inertia, of.chord_stiffness, keys[0]),
-                    (of.flap_inertia, of.flap_stiffness, keys[1]),
-                ];
-                let lacking = each.into_iter().filter(|(inertia, ..)| !(*inertia > 0.0));
-                let (mut names, mut sizes) = (Vec::new(), Vec::new());
-                for (_, stiffness, key) in lacking {
-                    names.push(key);
-                    sizes.push(format!("{:.4e} kg·m for {key}", of.mass * stiffness / of.axial_stiffness));
-                }
+                let [names, help] = self.section.lacks_inertia(&of);
                 let message = format!(
-                    "beam `{}` has shear, in which its sections turn on their own, and its section has no rotary inertia: {} is 0",
-                    self.name,
-                    names.join(" and ")
-                );
-                let help = format!(
-                    "give the moment of inertia per length ρI; of one material it is m EI/EA, here {}; without shear, leave `shear` out",
-                    sizes.join(" and ")
+                    "beam `{}` has shear, in which its sections turn on their own, and its section has no rotary inertia: {names} is 0",
+                    self.name
                 );
                 Fault::new("section", message).help(help)
             }
