@@ -51,7 +51,7 @@ const INCH: f64 = 1.0 / 0.0254;
 const POUND: f64 = 1.0 / 4.448_221_615;
 const POUND_MASS: f64 = 1.0 / 0.453_592_37;
 
-static BROKEN: [Broken; 82] = [
+static BROKEN: [Broken; 86] = [
     ("asymmetric K34", "K34", |d| {
         d.stiffness[AT][2][3] += 0.02 * (d.stiffness[AT][2][2] * d.stiffness[AT][3][3]).sqrt()
     }),
@@ -160,6 +160,19 @@ static BROKEN: [Broken; 82] = [
     ("x and y exchanged", "are x and y exchanged?", |d| {
         turned(&mut d.stiffness);
         turned(&mut d.mass)
+    }),
+    ("shear stiffnesses exchanged", "are both exchanged?", |d| {
+        d.stiffness.iter_mut().for_each(|k| (k[0][0], k[1][1]) = (k[1][1], k[0][0]))
+    }),
+    ("rows of both shears exchanged", "are both exchanged?", |d| {
+        reordered(&mut d.stiffness, [1, 0, 2, 3, 4, 5])
+    }),
+    ("twist from the tip", "the twist grows from", |d| {
+        let twist: Vec<f64> = d.keypoints.iter().rev().map(|point| point[3]).collect();
+        d.keypoints.iter_mut().zip(twist).for_each(|(point, twist)| point[3] = twist)
+    }),
+    ("keypoints that begin beside the origin", "must be at the origin", |d| {
+        d.keypoints.iter_mut().for_each(|point| point[1] += 1.5)
     }),
     ("K with the axial row first", "shear stiffness", |d| reordered(&mut d.stiffness, [2, 0, 1, 5, 3, 4])),
     ("K and M with the axial row first", "M24|shear stiffness", |d| {

@@ -136,3 +136,21 @@ fn errors_by_the_mesh_that_are_missing_have_a_reason() {
     let found = diagram(&case, &[0.0, 1.0], 2);
     assert!(says(&found.warnings), "{:?}", found.warnings);
 }
+
+/// A diagram of motions that do not vibrate says why it is empty.
+#[test]
+fn a_diagram_of_overdamped_motions_says_that_nothing_vibrates() {
+    const BAR: &str = "
+beam = { length = 1 }
+damping = { stiffness = 1e3 }
+section = { kind = 'rectangle', height = 0.01, width = 0.02, modulus = 7e10, density = 2700 }
+model.coupling = 'exact'
+basis.elements = 4
+run.duration = 1
+";
+    let reading = reading(BAR, &[]);
+    assert!(!modes(&reading, 0.0, 3).modes.overdamped.is_empty());
+    let diagram = diagram(&reading, &[0.0, 1.0], 3);
+    assert!(diagram.campbell.branches.is_empty());
+    assert!(diagram.warnings.iter().any(|text| text.contains("nothing vibrates")), "{:?}", diagram.warnings);
+}

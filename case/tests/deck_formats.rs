@@ -354,11 +354,10 @@ fn a_beam_asks_a_deck_for_what_it_needs_and_no_more() {
         (&torsion, "torsion = true", "give `polar-inertia` of the beam"),
         (&torsion, "shear = true", "does not say how stiff it is in shear"),
         (&torsion, "shear = true", "the columns `GA-chord` and `GA-flap`"),
-        (&with("GJ, GA-chord, GA-flap", "70, 5e5, 5e5"), "shear = true", "has rotary inertia"),
         (
             &with("GJ, GA-chord, GA-flap", "70, 5e5, 5e5"),
             "shear = true",
-            "the columns `inertia-flap` and `inertia-chord` of its table",
+            "has no rotary inertia: the column `inertia-chord` and the column `inertia-flap`",
         ),
         (&torsion, "polar-inertia = 1\npoisson-ratio = 0.3", "is of a shape, which this section has not"),
     ] {
@@ -452,4 +451,57 @@ fn rows_of_hawc2_are_as_many_as_announced() {
         assert!(message.contains(&format!("behind the {count} rows")), "{message}");
     }
     assert!(announces(rows + 1).is_err());
+}
+
+/// A line of windIO that does not begin at the origin is put at the start of the beam, which is said; that it is swept is not.
+#[test]
+fn windio_that_begins_beside_the_origin_is_told() {
+    let text = file("IEA-15-240-RWT_windIO.yaml");
+    let whole = read(&text, Format::WindIo).unwrap();
+    let at = text.find("reference_axis").unwrap();
+    let y = at + text[at..].find("y:").unwrap();
+    let values = y + text[y..].find("values: [").unwrap() + "values: [".len();
+    let end = values + text[values..].find(']').unwrap();
+    let moved: Vec<String> =
+        text[values..end].split(',').map(|x| (x.trim().parse::<f64>().unwrap() + 1.5).to_string()).collect();
+    let broken = format!("{}{}{}", &text[..values], moved.join(", "), &text[end..]);
+    let deck = read(&broken, Format::WindIo).unwrap();
+    assert!((deck.length - whole.length).abs() < 1e-9);
+    let new: Vec<&String> = deck.cautions.iter().filter(|text| !whole.cautions.contains(text)).collect();
+    assert!(new.len() == 1 && new[0].contains("`reference_axis` begins at (0, 1.5, 0) m"), "{new:?}");
+    let [primary, _] = deck::write_beamdyn(&deck, "t", "b.dat").unwrap();
+    let first = primary.lines().skip_while(|line| !line.contains("initial_twist")).nth(2).unwrap();
+    let numbers: Vec<f64> = first.split_whitespace().map(|x| x.parse().unwrap()).collect();
+    assert_eq!(numbers[..3], [0.0; 3], "{first}");
+}
+
+/// Three blades of one deck have each caution once, with their names.
+#[test]
+fn what_holds_for_the_blades_of_a_rotor_is_said_once() {
+    let beam = |name: &str, direction: &str| {
+        format!(
+            "[[beam]]\nname = '{name}'\ndirection = {direction}\nup = [0, 0, 1]\nroot = 'clamped'\nsection = {{ kind = 'deck', file = '../verification/blades/IEA-15-240-RWT_BeamDyn.dat', \
+             format = 'beamdyn' }}\n"
+        )
+    };
+    let text = format!(
+        "run.duration = 0\n{}{}{}",
+        beam("one", "[1, 0, 0]"),
+        beam("two", "[-0.5, 0.8660254037844386, 0]"),
+        beam("three", "[-0.5, -0.8660254037844386, 0]")
+    );
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("case.toml");
+    let cautions =
+        flexion_case::parse(text, &folder, &[]).unwrap_or_else(|problems| panic!("{problems}")).case.cautions;
+    let said = |what: &str| cautions.iter().filter(|text| text.contains(what)).collect::<Vec<_>>();
+    assert_eq!(
+        (said("settings of BeamDyn").len(), said("by rows, as the format").len()),
+        (1, 1),
+        "{cautions:#?}"
+    );
+    let of = said("without shear");
+    assert!(
+        of.len() == 1 && of[0].starts_with("each of the beams `one`, `two`, `three` is without shear"),
+        "{of:#?}"
+    );
 }

@@ -3,10 +3,12 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use flexion::analysis::campbell::{Campbell, HubState, Plan};
+use flexion_case::deck::{self, Deck, Format};
 use flexion_case::parse;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Published stations of the NREL 5 MW blade: fraction, twist \[°\], mass per length, flapwise and edgewise stiffness.
 fn stations() -> Vec<[f64; 5]> {
@@ -101,4 +103,144 @@ fn a_blade_of_49_stations_has_the_same_campbell_diagram_from_elastodyn_and_as_ma
     let hertz: Vec<f64> = b.branches.iter().map(|b| b.points[0].mode.frequency() / TAU).collect();
     assert!((0.65..0.75).contains(&hertz[0]) && (1.0..1.2).contains(&hertz[1]), "{hertz:?}");
     assert!(b.branches.iter().any(|b| b.points[0].mode.shares.dominant() == "torsion"), "{hertz:?}");
+}
+
+/// Titles, units and rows of the blade of the NREL 5 MW turbine, in the six columns of OpenFAST up to 4.
+fn six(titles: &str, units: &str, change: impl Fn(usize, usize, f64) -> f64) -> Result<Deck, String> {
+    let rows = stations();
+    let mut text = format!(
+        "---\ntitle\n---\n{} NBlInpSt\n1.5 BldFlDmp1\n0 BldFlDmp2\n1 AdjBlMs\n1 AdjFlSt\n1 AdjEdSt\n---\n{titles}\n{units}\n",
+        rows.len()
+    );
+    for (i, [fraction, twist, mass, flap, edge]) in rows.into_iter().enumerate() {
+        let row = [fraction, 0.3, twist, mass, flap, edge];
+        let row: Vec<String> =
+            row.into_iter().enumerate().map(|(k, x)| format!("{:e}", change(i, k, x))).collect();
+        writeln!(text, "{}", row.join(" ")).unwrap();
+    }
+    text.push_str("--- MODES\n0.06 BldFl1Sh(2)\n");
+    deck::read(&|_| Ok(Arc::from(text.as_bytes())), "f", Format::ElastoDyn { length: Some(61.5) })
+}
+
+const TITLES: &str = "BlFract PitchAxis StrcTwst BMassDen FlpStff EdgStff";
+const UNITS: &str = "(-) (-) (deg) (kg/m) (Nm^2) (Nm^2)";
+
+fn same(_: usize, _: usize, x: f64) -> f64 {
+    x
+}
+
+/// What every ElastoDyn file has said of it.
+fn others(deck: &Deck) -> Vec<&String> {
+    let usual = |text: &&String| !text.contains("no axial stiffness") && !text.contains("assumed modes");
+    deck.cautions.iter().filter(usual).collect()
+}
+
+/// OpenFAST up to 4 reads columns by their place and 5 by their titles: both must say the same.
+#[test]
+fn columns_are_those_of_their_place_and_titles_do_not_speak_against_it() {
+    let whole = six(TITLES, UNITS, same).unwrap();
+    assert_eq!(others(&whole), Vec::<&String>::new());
+    assert!(whole.cautions.iter().any(|text| text.contains("(BldFlDmp(1) = 1.5 %)")), "{:?}", whole.cautions);
+    for titles in [
+        "r/R Pitch twist mass EI_flap EI_edge",
+        "BlFract PitchAxis StrcTwst BMassDen FlpStff",
+        "BlFract AeroCent StrcTwst mu EIf EdgStff",
+        "(fraction of the blade, and so on)",
+    ] {
+        let deck = six(titles, UNITS, same).unwrap();
+        assert_eq!(
+            (deck.table.rows(), deck.frame(20.0)),
+            (whole.table.rows(), whole.frame(20.0)),
+            "{titles}"
+        );
+        let said = others(&deck);
+        assert!(said.len() == 1 && said[0].contains("read by their place, as OpenFAST up to 4"), "{said:?}");
+        assert!(said[0].contains("as `EdgStff`") != titles.ends_with("EdgStff"), "{said:?}");
+    }
+    for (titles, says) in [
+        (
+            "BlFract StrcTwst BMassDen FlpStff EdgStff",
+            "line 11 of f: the title `StrcTwst` stands over column 2, which is read as `PitchAxis`; 5 titles stand over the 6 numbers of line 13",
+        ),
+        (
+            "BlFract PitchAxis StrcTwst FlpStff EdgStff",
+            "`FlpStff` stands over column 4, which is read as `BMassDen`",
+        ),
+        (
+            "BlFract PitchAxis StrcTwst BMassDen EdgStff FlpStff",
+            "`EdgStff` stands over column 5, which is read as `FlpStff`. OpenFAST",
+        ),
+        (
+            "BlFract PitchAxis StrcTwst BMassDen FlpStff FlpStff",
+            "`FlpStff` stands over column 6, which is read as `EdgStff`",
+        ),
+        ("BlFract StrcTwst PitchAxis BMassDen FlpStff EdgStff", "`StrcTwst` stands over column 2"),
+    ] {
+        let message = six(titles, UNITS, same).unwrap_err();
+        assert!(message.contains(says), "{message}");
+    }
+    let deck = six(TITLES, "(-) (-) (deg) (kg/m) (kNm^2) (kNm^2)", same).unwrap();
+    let says = "line 12 of f: `FlpStff` has the unit kNm^2";
+    assert!(others(&deck).iter().any(|text| text.contains(says)), "{:?}", deck.cautions);
+}
+
+/// The 17 columns of FAST 7, by titles of any spelling.
+#[test]
+fn the_columns_of_fast_7_are_read_by_their_place() {
+    let rows = stations();
+    let text = |titles: &str| {
+        let mut text =
+            format!("---\n{} NBlInpSt\n1 AdjBlMs\n1 AdjFlSt\n1 AdjEdSt\n---\n{titles}\nunits\n", rows.len());
+        for row @ [fraction, twist, mass, flap, edge] in &rows {
+            let [ea, gj, i, j] = more(*row);
+            writeln!(
+                text,
+                "{fraction} 0.25 {twist} {mass} {flap:e} {edge:e} {gj:e} {ea:e} 0 {i} {j} 0 0 0 0.1 0 0"
+            )
+            .unwrap();
+        }
+        text
+    };
+    let read = |text: &str| {
+        let find = |_: &str| Ok(Arc::from(text.as_bytes()));
+        deck::read(&find, "f", Format::ElastoDyn { length: Some(61.5) }).unwrap()
+    };
+    let (of_titles, of_places) = (read(&elastodyn()), read(&text("a b c")));
+    assert_eq!(of_titles.table.rows(), of_places.table.rows());
+    assert!(
+        of_places.cautions.iter().any(|text| text.contains("not used here: `EdgcgOf`")),
+        "{:?}",
+        of_places.cautions
+    );
+}
+
+/// Other units, a column from tip to root: a blade of its length has no such frequencies, and no such twist.
+#[test]
+fn an_elastodyn_file_in_other_units_is_told_at_its_line() {
+    let scaled = |columns: &'static [usize], factor: f64| {
+        move |_: usize, k: usize, x: f64| if columns.contains(&k) { factor * x } else { x }
+    };
+    let cases: [(&'static [usize], f64, &str); 7] = [
+        (&[4, 5], 1e-3, "flapwise at 2.1"),
+        (&[4, 5], 1e3, "flapwise at 2.1"),
+        (&[4, 5], 1e6, "flapwise at 6.9"),
+        (&[4], 1e-3, "with FlpStff = 1.811e7"),
+        (&[5], 1e-3, "edgewise at 3.5"),
+        (&[3], 1e-3, "BMassDen = 6.789e-1"),
+        (&[3], 1e3, "flapwise at 2.1"),
+    ];
+    for (columns, factor, says) in cases {
+        let deck = six(TITLES, UNITS, scaled(columns, factor)).unwrap();
+        let is_told = |text: &&String| text.contains("line 13: with") && text.contains(says);
+        assert!(
+            others(&deck).into_iter().any(|text| is_told(&text)),
+            "{columns:?} {factor}: {:?}",
+            deck.cautions
+        );
+        assert!(deck.cautions.iter().all(|text| !text.contains("Iner")), "{:?}", deck.cautions);
+    }
+    let twists: Vec<f64> = stations().iter().rev().map(|row| row[1]).collect();
+    let turned = six(TITLES, UNITS, |i, k, x| if k == 2 { twists[i] } else { x }).unwrap();
+    let says = "line 61 of f: the twist grows from 0.0000° at the root to 13.3080° here";
+    assert!(others(&turned).iter().any(|text| text.contains(says)), "{:?}", turned.cautions);
 }

@@ -6,6 +6,7 @@ mod blade;
 mod broken_cases;
 mod broken_decks;
 mod case_files;
+mod condensed;
 mod contact;
 mod contact_in_space;
 mod convergence;

@@ -460,3 +460,29 @@ fn a_fibre_outside_of_all_sections_is_refused() {
     let said = read("1e308 mm").unwrap_err();
     assert!(said.contains("has the fibre `top` 1.000e305 m from its axis"), "{said}");
 }
+
+/// A `general` section of a beam with shear needs rotary inertia: which is missing, and what it would be of one material, is said.
+#[test]
+fn a_general_section_without_rotary_inertia_says_what_to_write() {
+    let text = |inertia: &str| {
+        format!(
+            "run.duration = 0\n[[beam]]\nname = 'b'\nlength = 1\nup = [0, 1, 0]\nroot = 'clamped'\nshear = true\nsection = {{ kind = 'general', mass-per-length = 1.2, \
+             axial-stiffness = 28e6, torsional-stiffness = 700, bending-stiffness = 930, bending-stiffness-across = 800, shear-stiffness = 1e7, \
+             shear-stiffness-across = 1e7{inertia} }}\n"
+        )
+    };
+    let read = |inertia: &str| flexion_case::parse(text(inertia), std::path::Path::new("case.toml"), &[]);
+    for (inertia, says, not) in [
+        ("", "`rotary-inertia` and `rotary-inertia-across` is 0", "the mass matrix"),
+        (", rotary-inertia = 4e-5", "`rotary-inertia-across` is 0", "`rotary-inertia` "),
+        (", rotary-inertia-across = 4e-5", "`rotary-inertia` is 0", "`rotary-inertia-across`"),
+    ] {
+        let message = read(inertia).err().unwrap().to_string();
+        assert!(message.contains(says) && !message.contains(not), "{message}");
+        let written = message.split("here ").nth(1).unwrap().split(' ').next().unwrap();
+        // m EI/EA of the height, 1.2·930/28e6, or across, 1.2·800/28e6.
+        let expected = if says.starts_with("`rotary-inertia-across") { "3.4286e-5" } else { "3.9857e-5" };
+        assert_eq!(written, expected, "{message}");
+    }
+    assert!(read(", rotary-inertia = 4e-5, rotary-inertia-across = 3e-5").is_ok());
+}

@@ -20,7 +20,7 @@ use std::sync::atomic::Ordering;
 Speeds are written FROM:TO:NUMBER, ends included, or FROM:TO for 51 of them, in the unit of --unit or with units of
 their own. The motion of the case is replaced by steady rotation at each speed; the hub keeps its speed unless
 --free-hub is given. Modes are followed by their shapes through crossings and veerings; speeds are inserted where a
-shape changes fast.
+shape changes fast. Of the modes of the smallest |λ| of e^{λt} those are shown that are among the --modes lowest frequencies at some speed.
 
 Frequencies are those seen from the rotating frame. There a load that is fixed in space, such as weight, excites with 1Ω. A frequency
 that reaches zero is a critical speed: a whirl forward with the rotation, which unbalance excites. A shaft that whirls backward with
@@ -34,7 +34,7 @@ pub struct Arguments {
     /// Range of speeds, e.g. 0:50:100 or '0 rpm:20 rpm:100'
     #[arg(long, value_name = "FROM:TO:NUMBER", value_parser = Speeds::read, allow_hyphen_values = true)]
     speeds: Speeds,
-    /// Number of modes, the lowest at any of the speeds
+    /// Number of modes, those of the lowest frequencies at any of the speeds
     #[arg(long, value_name = "N", default_value = "6", value_parser = vibration::count)]
     modes: usize,
     /// Lines ω = kΩ to cross, for k from 1 to this number

@@ -315,12 +315,12 @@ impl Beam {
         let of = self.blade.resultants(middle);
         match error {
             BeamError::Section { .. } if self.shear && !(of.flap_inertia > 0.0 && of.chord_inertia > 0.0) => {
-                let keys = if self.section.deck.is_some() {
-                    "the columns `inertia-flap` and `inertia-chord` of its table"
-                } else {
-                    "`rotary-inertia` and `rotary-inertia-across` of `general`"
-                };
-                fault.help(format!("a section of a beam with shear has rotary inertia: give {keys}"))
+                let [names, help] = self.section.lacks_inertia(&of);
+                let message = format!(
+                    "beam `{}` has shear, in which its sections turn on their own, and its section has no rotary inertia: {names} is 0",
+                    self.name
+                );
+                Fault::new("section", message).help(help)
             }
             BeamError::Section { .. } if !self.shear && !(self.properties(middle).inertia[0] > 0.0) => fault.help(
                 "give `polar-inertia` of the beam, the moment of inertia per length about the tangent [kg·m], which the section does not \

@@ -1,7 +1,7 @@
 //! The cross-section of a beam, of whatever kind.
 
 use crate::files::deck::Deck;
-use flexion::section::{self, BladeSection, PlanarBlade, SectionError, Shape};
+use flexion::section::{self, BladeResultants, BladeSection, PlanarBlade, SectionError, Shape};
 use std::fmt;
 use std::sync::Arc;
 
@@ -56,5 +56,29 @@ impl Section {
     /// [`SectionError`] when the section makes no blade.
     pub fn blade(&self, assumed: Assumed) -> Result<Box<dyn BladeSection>, SectionError> {
         (self.spatial)(assumed)
+    }
+
+    /// The keys of the moments of inertia in bending that are 0, and what to write.
+    pub(super) fn lacks_inertia(&self, of: &BladeResultants) -> [String; 2] {
+        let keys = match self.deck {
+            Some(_) => ["the column `inertia-chord`", "the column `inertia-flap`"],
+            None => ["`rotary-inertia`", "`rotary-inertia-across`"],
+        };
+        let each = [(of.chord_inertia, of.chord_stiffness), (of.flap_inertia, of.flap_stiffness)];
+        let lacking: Vec<(&str, String)> = each
+            .into_iter()
+            .zip(keys)
+            .filter(|((inertia, _), _)| !(*inertia > 0.0))
+            .map(|((_, stiffness), key)| {
+                (key, format!("{:.4e} kg·m for {key}", of.mass * stiffness / of.axial_stiffness))
+            })
+            .collect();
+        let names: Vec<&str> = lacking.iter().map(|(key, _)| *key).collect();
+        let sizes: Vec<&str> = lacking.iter().map(|(_, size)| &**size).collect();
+        let help = format!(
+            "give the moment of inertia per length ρI; of one material it is m EI/EA, here {}; without shear, leave `shear` out",
+            sizes.join(" and ")
+        );
+        [names.join(" and "), help]
     }
 }

@@ -136,7 +136,14 @@ pub fn section(OfDeck { file, format, set, subset }: OfDeck, c: &Context<'_>) ->
             return Err(Fault::new("file", message).help("leave the length out").into());
         }
     }
-    c.cautions.borrow_mut().extend(deck.cautions.iter().chain(&deck.notes).cloned());
+    // Beams may share a deck.
+    let mut said = c.cautions.borrow_mut();
+    for caution in deck.cautions.iter().chain(&deck.notes) {
+        if !said.contains(caution) {
+            said.push(caution.clone());
+        }
+    }
+    drop(said);
     let has_line = has_line(format);
     let sections = Sections { breaks: deck.breaks(), deck: Arc::clone(&deck), has_line };
     let spatial = sections.clone();

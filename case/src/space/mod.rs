@@ -1,5 +1,6 @@
 //! A system in space: the model that is made of its parts.
 
+mod alike;
 mod mounted;
 mod named;
 mod placed;
@@ -363,8 +364,18 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         refine,
         size,
     };
-    c.cautions.borrow_mut().extend(space.mounted(c.duration.unwrap_or(0.0)));
+    let mut cautions = c.cautions.take();
+    cautions.extend(space.mounted(c.duration.unwrap_or(0.0)));
+    c.cautions.replace(space.once(cautions));
     Ok(space)
+}
+
+impl Space {
+    /// Sentences that differ by the names of beams alone, as one.
+    fn once(&self, sentences: Vec<String>) -> Vec<String> {
+        let names: Vec<&str> = self.beams.iter().map(|(beam, _)| &*beam.name).collect();
+        alike::once(sentences, &names)
+    }
 }
 
 /// Whether a beam lies in the plane of x and y, with one axis of its sections.

@@ -20,14 +20,14 @@ impl Space {
         let caution = |(beam, _): &(Beam, _)| {
             let share = 0.5 * (std::f64::consts::PI * beam.gyration() / beam.length).powi(2);
             format!(
-                "`{}` spins about its own axis without rotary inertia in bending: its polar moment of inertia stiffens it as a gyroscope, and what takes back half of \
+                "beam `{}` spins about its own axis without rotary inertia in bending: its polar moment of inertia stiffens it as a gyroscope, and what takes back half of \
                  that is left out. Its critical speeds come out too high, the n-th of pinned ends by about n² × {:.2} %: give its section `rotary-inertia`, or the \
                  beam `shear = true`",
                 beam.name,
                 100.0 * share
             )
         };
-        spins.map(caution).collect()
+        self.once(spins.map(caution).collect())
     }
 
     /// Whether a beam spins about its own direction: with the rotation of the case, from the start, or by the prescribed motion of a joint at it.

@@ -17,7 +17,7 @@ impl Space {
         let with_shear = self.beams.iter().map(|(beam, _)| beam).filter(|beam| beam.shear && beam.torsion);
         let each = with_shear.map(|beam| (&beam.name, stiffening(beam, &rotation.axis, speed)));
         let counts = each.filter(|(_, part)| *part > COUNTS);
-        counts
+        let said = counts
             .map(|(name, part)| {
                 format!(
                     "beam `{name}` has shear and no trapeze effect: at {speed:.4} rad/s its tension would make it stiffer in torsion by about {:.2} %, and the \
@@ -26,7 +26,8 @@ impl Space {
                     100.0 * ((1.0 + part).sqrt() - 1.0)
                 )
             })
-            .collect()
+            .collect();
+        self.once(said)
     }
 }
 

@@ -16,7 +16,7 @@ const STATIONS: u32 = 50;
 pub struct DiagramRequest {
     /// Speeds of rotation, ascending from at least zero \[rad/s\]; further ones are inserted where a shape changes fast.
     pub speeds: Vec<f64>,
-    /// Number of modes, the lowest at any of the speeds.
+    /// Number of modes, those of the lowest frequencies at any of the speeds.
     pub count: usize,
     /// Lines ω = kΩ to cross, for k from 1 to this number.
     pub revolutions: u32,
@@ -94,6 +94,13 @@ impl Reading {
         let mut campbell = campbell(system, finer, &plan, request.threads, &watched)
             .map_err(|error| VibrationError::from(error).suspecting(case))?;
         keep_lowest(&mut campbell, request.count);
+        if campbell.branches.is_empty() {
+            warnings.push(
+                "nothing vibrates at these speeds: all motions found are overdamped, they decay before they come back (ζ > 0.9962), and the diagram is \
+                 empty; `flexion modes` lists their rates; is a damping in other units?"
+                    .to_owned(),
+            );
+        }
         let failed = campbell.unestimated.as_ref().filter(|why| **why != NoCampbell::Stopped);
         why = why.or(failed.map(NoCampbell::to_string));
         warnings.extend(why.map(|why| unestimated(&why)));

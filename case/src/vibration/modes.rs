@@ -27,7 +27,7 @@ const STATIONS: u32 = 200;
 pub struct ModesRequest {
     /// Speed of rotation \[rad/s\]; the frequencies are those of the speed with the other sign.
     pub speed: f64,
-    /// Number of modes, the lowest.
+    /// Number of modes, those of the smallest |λ|.
     pub count: usize,
     /// Whether the hub is free to rotate with the beam under its torques; otherwise it keeps its speed.
     pub free_hub: bool,

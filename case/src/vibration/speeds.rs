@@ -29,7 +29,11 @@ impl Speed {
     pub fn read(text: &str) -> Result<Speed, String> {
         let text = text.trim();
         if let Ok(x) = text.parse::<f64>() {
-            return Ok(Speed::Plain(x));
+            return if x.is_finite() {
+                Ok(Speed::Plain(x))
+            } else {
+                Err(format!("`{text}` is no speed: write a finite number"))
+            };
         }
         match units::parse(text, &units::ANGULAR_SPEED) {
             Ok(x) if text.ends_with("rpm") => Ok(Speed::Rpm(x)),
@@ -126,5 +130,24 @@ impl Wanted {
         // Nobody counts vibrations by the minute, unless he says so.
         let usual = if speed == Frequencies::RPM { Frequencies::HERTZ } else { speed };
         Ok(Units { speed, frequency: self.frequency.or(self.both).unwrap_or(usual) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_finite_number_is_named_as_it_was_written() {
+        for (text, says) in [
+            ("nan:1:3", "`nan` is no speed: write a finite number"),
+            ("0:nan:3", "`nan` is no speed"),
+            ("0:inf", "`inf` is no speed"),
+            ("0:1e400:3", "`1e400` is no speed"),
+        ] {
+            let message = Speeds::read(text).unwrap_err();
+            assert!(message.starts_with(says), "{text}: {message}");
+        }
+        assert!(Speeds::read("0 rpm:20:5").is_ok_and(|speeds| matches!(speeds.to, Speed::Rpm(_))));
     }
 }

@@ -27,6 +27,8 @@ const SETTINGS: [&str; 11] = [
 ];
 /// Distance of the first and the last station from 0 and 1.
 const ENDS: f64 = 1e-4;
+/// Distance of the first keypoint from the origin over that of the last, up to which it is rounding.
+const ROOT: f64 = 1e-9;
 /// Longest damping time \[s\].
 pub(super) const LONGEST: f64 = 1e6;
 
@@ -163,6 +165,14 @@ fn keypoints(text: &Text<'_>, cautions: &mut Vec<String>) -> Result<Vec<(usize, 
             ));
         }
         points.push((found.line, Vec3([x, y, z]), twist));
+    }
+    let origin = ROOT * points.last().map_or(0.0, |(_, place, _)| place.norm());
+    if let Some((line, root, _)) = points.first().filter(|(_, place, _)| place.norm() > origin) {
+        return Err(format!(
+            "line {line} of {name}: the first keypoint is at ({}, {}, {}) m and must be at the origin, which is the root of the blade, as OpenFAST demands: take \
+             its coordinates off those of all keypoints, and add them to the `start` of the beam",
+            root[0], root[1], root[2]
+        ));
     }
     if let Some(next) =
         text.next_with_number(at).filter(|next| text.numbers(&mut { *next }, 4, "").is_ok() && *next == at)
@@ -305,9 +315,10 @@ pub fn write(deck: &Deck, title: &str, blade: &str) -> Result<[String; 2], Strin
     if ends.len() == 2 {
         ends.insert(1, 0.5 * deck.length);
     }
+    let root = deck.frame(0.0).position;
     let mut points = Vec::with_capacity(ends.len());
     for s in ends {
-        let place = deck.frame(s).position;
+        let place = deck.frame(s).position - root;
         if points.last().is_some_and(|before: &[f64; 4]| !(place[2] > before[2])) {
             return Err(format!(
                 "z of the line does not ascend at {s:.4} m along it: BeamDyn has no keypoints for it"
@@ -332,7 +343,7 @@ pub fn write(deck: &Deck, title: &str, blade: &str) -> Result<[String; 2], Strin
     let matrix =
         |of: &Matrix6| BEAMDYN.outward(of).iter().map(|row| line_of(row)).collect::<Vec<_>>().join("\n");
     for (s, section) in rows {
-        let eta = (deck.frame(*s).position[2] - from) / (to - from);
+        let eta = (deck.frame(*s).position[2] - root[2] - from) / (to - from);
         // Writing to a string cannot fail.
         let _ =
             write!(stations, "{eta:.15}\n{}\n\n{}\n\n", matrix(&section.stiffness), matrix(&section.mass));

@@ -14,12 +14,15 @@ use crate::units::{
 };
 use flexion::section::{Matrices, Matrix6};
 
-static CSV: Convention = Convention {
+pub(super) const CSV: Convention = Convention {
     place: [0, 1, 2, 3, 4, 5],
     sign: [1.0; 6],
     station: "x",
+    stiffness: None,
     inertia: Some(["mass", "polar-inertia", "inertia-flap", "inertia-chord", "mass-y", "mass-z"]),
+    twists: false,
 };
+static OF_CSV: Convention = CSV;
 
 const fn force(name: &'static str, required: bool) -> Column {
     column(name, &[], &AXIAL_STIFFNESS, required)
@@ -136,7 +139,7 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
         let rows = columns::with_lines(&text, name, &CENTRES)?;
         let (line, twist) = most(&mut rows.iter().map(|(line, row)| (*line, row[8]))).unwrap_or_default();
         twisted(line, twist)?;
-        return of_centres(name, rows, cautions, false);
+        return of_centres(name, rows, cautions, &OF_CSV, false);
     }
     let full = |(line, row): (usize, [f64; 30])| {
         let (mut stiffness, mut values) = ([[0.0; 6]; 6], row[9..].iter());
@@ -149,7 +152,7 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
     let made: Vec<Given> = columns::with_lines(&text, name, &FULL)?.into_iter().map(full).collect();
     let (line, twist) = most(&mut made.iter().map(|of| (of.line, of.values[8]))).unwrap_or_default();
     twisted(line, twist)?;
-    deck(name, made, Silent::default(), cautions)
+    deck(name, made, Silent::default(), (cautions, &OF_CSV))
 }
 
 /// The deck of the rows of a table of centres, each with its line; `axial` is whether the file says no axial stiffness.
@@ -157,6 +160,7 @@ pub(super) fn of_centres(
     name: &str,
     rows: Vec<(usize, [f64; 19])>,
     cautions: Vec<String>,
+    convention: &'static Convention,
     axial: bool,
 ) -> Result<Deck, String> {
     let none = |i: usize| rows.iter().all(|(_, row)| row[i] == 0.0);
@@ -167,11 +171,16 @@ pub(super) fn of_centres(
         inertia: [none(4) && none(5) && none(7), none(4), none(5)],
     };
     let made = rows.into_iter().map(|(line, row)| centres(line, row, silent)).collect();
-    deck(name, made, silent, cautions)
+    deck(name, made, silent, (cautions, convention))
 }
 
 /// The deck of rows by their places.
-fn deck(name: &str, made: Vec<Given>, silent: Silent, cautions: Vec<String>) -> Result<Deck, String> {
+fn deck(
+    name: &str,
+    made: Vec<Given>,
+    silent: Silent,
+    (cautions, convention): (Vec<String>, &'static Convention),
+) -> Result<Deck, String> {
     let [first, .., last] = &made[..] else {
         return Err(format!("{name} has {} rows, and a blade two or more", made.len()));
     };
@@ -196,10 +205,12 @@ fn deck(name: &str, made: Vec<Given>, silent: Silent, cautions: Vec<String>) -> 
     let twist: Vec<[f64; 2]> = made.iter().map(|of| [of.values[0], -of.values[8]]).collect();
     let line = Line::straight(to, &twist)?;
     let rows = made.iter().enumerate().map(|(i, of)| row(i, of)).collect();
-    let twist = made.iter().map(|of| (of.line, of.values[0], of.values[8].to_degrees())).collect();
+    // ElastoDyn's twist is positive about the axis towards the root.
+    let sense = if convention.twists { -1.0 } else { 1.0 };
+    let twist = made.iter().map(|of| (of.line, of.values[0], sense * of.values[8].to_degrees())).collect();
     let keypoints = Keypoints { name: name.to_owned(), points: Vec::new(), twist };
     let (damping, notes) = (None, Vec::new());
-    Raw { name, convention: &CSV, line, keypoints, rows, damping, cautions, notes, silent }.deck()
+    Raw { name, convention, line, keypoints, rows, damping, cautions, notes, silent }.deck()
 }
 
 /// A row of a table of centres.

@@ -132,7 +132,7 @@ impl<'a> Text<'a> {
 }
 
 /// Whether a word looks like a number, right or wrong.
-fn begins_number(word: &str) -> bool {
+pub(super) fn begins_number(word: &str) -> bool {
     let rest = word.trim_start_matches(['+', '-', '.']);
     let is_name = matches!(rest.to_ascii_lowercase().as_str(), "nan" | "inf" | "infinity");
     word.len() - rest.len() <= 2 && (is_name || rest.starts_with(|c: char| c.is_ascii_digit()))

@@ -26,7 +26,9 @@ pub(super) static HAWC2: Convention = Convention {
     place: [2, 0, 1, 5, 3, 4],
     sign: [1.0, -1.0, -1.0, 1.0, -1.0, -1.0],
     station: "r",
+    stiffness: None,
     inertia: Some(["m", "ri_x, ri_y", "ri_x", "ri_y", "x_cg", "y_cg"]),
+    twists: false,
 };
 
 /// Columns of full matrices and of the classical form.

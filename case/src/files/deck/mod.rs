@@ -235,7 +235,7 @@ impl Raw<'_> {
             table.push((line.arc(row.place), section));
         }
         let places = rows.iter().map(|row| row.place).collect();
-        cautions.extend(keypoints.cautions(&line));
+        cautions.extend(keypoints.cautions(&line, convention.twists));
         cautions.extend(plausible::cautions(name, convention, &line, &rows, &table, (damping, silent)));
         let table = MatrixTable::new(length, &table).map_err(|error| format!("{name}: {error}"))?;
         Ok(Deck { length, line, table, damping, cautions, notes, silent, places })

@@ -8,9 +8,13 @@ pub(super) struct Convention {
     pub sign: [f64; 6],
     /// What the format calls its stations.
     pub station: &'static str,
+    /// What it calls the diagonal of the stiffness, where it has no stiffness matrix.
+    pub stiffness: Option<[&'static str; 6]>,
     /// What it calls mass, moments of inertia about tangent, height and across, and offsets along height and across, where it has no mass
     /// matrix.
     pub inertia: Option<[&'static str; 6]>,
+    /// Whether its twist is that of a rotor blade, positive about the axis towards the root.
+    pub twists: bool,
 }
 
 /// Shear x, shear y, axial z, bend x, bend y, torsion z with x to the suction side and y edgewise: (tangent, height, across) = (z, y, −x).
@@ -18,7 +22,9 @@ pub(super) static BEAMDYN: Convention = Convention {
     place: [2, 1, 0, 5, 4, 3],
     sign: [1.0, 1.0, -1.0, 1.0, 1.0, -1.0],
     station: "eta",
+    stiffness: None,
     inertia: None,
+    twists: true,
 };
 
 impl Convention {
@@ -46,6 +52,9 @@ impl Convention {
 
     /// The name in the format of the entry (i, j) of this program of a matrix `k`.
     pub fn entry(&self, k: char, i: usize, j: usize) -> String {
+        if let Some(names) = self.stiffness.filter(|_| k == 'K' && i == j) {
+            return names[i].to_owned();
+        }
         let named = self.inertia.filter(|_| k == 'M').and_then(|names| match (i.min(j), i.max(j)) {
             (0, 0) | (1, 1) | (2, 2) => Some(names[0]),
             (a, b) if a == b => Some(names[a - 2]),

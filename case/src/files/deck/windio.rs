@@ -25,6 +25,8 @@ static WINDIO: Convention = Convention {
 };
 /// Distance of the ends of a grid from 0 and 1.
 const ENDS: f64 = 1e-6;
+/// Distance of the beginning of the line from the origin over its length, up to which it is rounding.
+const ROOT: f64 = 1e-9;
 /// Part of the span with K44 < K55 from which the axes are exchanged.
 const EXCHANGED: f64 = 0.5;
 
@@ -303,9 +305,17 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Deck, String> {
         .map(|(u, angle)| [*u, if degrees { angle.to_radians() } else { *angle }])
         .collect();
     let (line, points) = line(axis, &twist, name)?;
+    let length = line.length();
     let twist = twist.iter().map(|[u, angle]| (at, *u, angle.to_degrees())).collect();
-    let keypoints = Keypoints { name: name.to_owned(), points, twist };
     let mut cautions = Vec::new();
+    if let Some((_, root)) = points.first().filter(|(_, root)| root.norm() > ROOT * length) {
+        cautions.push(format!(
+            "line {} of {name}: `reference_axis` begins at ({}, {}, {}) m, and not at the origin; its beginning is put at the `start` of the beam, which is \
+             to be moved by as much where the origin is the centre of the root",
+            axis.line, root[0], root[1], root[2]
+        ));
+    }
+    let keypoints = Keypoints { name: name.to_owned(), points, twist };
     let mu = of
         .at(&["structural_damping", "mu"])
         .map(|mu| mu.numbers(name, "structural_damping.mu"))
