@@ -55,6 +55,40 @@ const policy: Plugin = {
   },
 };
 
+const THREE = "node_modules/three";
+const SHADERS = `${THREE}/src/renderers/shaders`;
+/** What three.js draws surfaces and lines of `stage.ts` with, and what it puts before every shader. */
+const USED = [
+  ...["meshbasic", "meshlambert"].map((name) => `${SHADERS}/ShaderLib/${name}.glsl.js`),
+  `${THREE}/examples/jsm/lines/LineMaterial.js`,
+  `${THREE}/src/renderers/webgl/WebGLProgram.js`,
+];
+
+let kept: Set<string>;
+
+/** Shaders of other materials than those in use are left out, and comments of the rest: 20 kB of what is compressed. */
+const shaders: Plugin = {
+  name: "shaders",
+  buildStart: () => void (kept = needed()),
+  transform(code, id) {
+    const file = id.match(/\/shaders\/(ShaderLib|ShaderChunk)\/(\w+)\.glsl\.js$/);
+    if (!file) return;
+    const shortened = (text: string) => text.split("\n").map((line) => line.replace(/\/\/.*/, "").trim()).filter(Boolean).join("\n");
+    return code.replace(/`([^`]*)`/g, (_, text) => (kept.has(`${SHADERS}/${file[1]}/${file[2]}.glsl.js`) ? `\`\n${shortened(text)}\n\`` : '""'));
+  },
+};
+
+/** The files of the shaders in use, with what they include. */
+function needed(): Set<string> {
+  const [kept, open] = [new Set<string>(), [...USED]];
+  for (let file = open.pop(); file; file = open.pop()) {
+    if (kept.has(file)) continue;
+    kept.add(file);
+    for (const [, name] of readFileSync(file, "utf8").matchAll(/(?:#include +<|ShaderChunk\[ ')(\w+)/g)) open.push(`${SHADERS}/ShaderChunk/${name}.glsl.js`);
+  }
+  return kept;
+}
+
 export default defineConfig(({ mode }) => {
   if (mode === "editor") {
     const lib = { entry: "src/editor.ts", formats: ["iife" as const], name: "CaseEditor", fileName: () => "editor.js" };
@@ -64,7 +98,9 @@ export default defineConfig(({ mode }) => {
   return {
     base: "./",
     publicDir: false,
-    plugins: [licences(mode), viteSingleFile({ removeViteModuleLoader: true }), editor, policy],
+    // Its sources, of which only what is used is taken.
+    resolve: { alias: [{ find: /^three$/, replacement: "three/src/Three.js" }] },
+    plugins: [shaders, licences(mode), viteSingleFile({ removeViteModuleLoader: true }), editor, policy],
     worker: { format: "iife" },
     build: {
       outDir: "dist",

@@ -2,6 +2,7 @@
 //!
 //! The one module that knows the renderer.
 
+#[cfg(feature = "excerpts")]
 use annotate_snippets::{AnnotationKind, Group, Level, Renderer, Snippet};
 use std::fmt;
 use std::ops::Range;
@@ -86,6 +87,11 @@ impl Problem {
         Problem { message, key, place, ..Problem::default() }
     }
 
+    /// Its key and what is wrong.
+    fn title(&self) -> String {
+        if self.key.is_empty() { self.message.clone() } else { format!("{}: {}", self.key, self.message) }
+    }
+
     /// Adds a few words that stand under the caret.
     pub fn label(mut self, label: impl Into<String>) -> Problem {
         self.label = label.into();
@@ -149,12 +155,11 @@ impl Problems {
         self.list.iter().map(of).collect()
     }
 
-    /// The report, with terminal colours if `colour`.
+    /// The report, with terminal colours if `colour`; without the feature `excerpts` it has neither colours nor the lines of the case.
     pub fn render(&self, colour: bool) -> String {
-        let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
         let mut out = String::new();
         for problem in self.list.iter().take(SHOWN) {
-            out.push_str(&self.render_one(&renderer, problem));
+            out.push_str(&self.render_one(colour, problem));
             out.push_str("\n\n");
         }
         let name = self.sources.first().map_or("the case", |s| s.name.as_str());
@@ -166,13 +171,16 @@ impl Problems {
         out
     }
 
-    fn render_one(&self, renderer: &Renderer, problem: &Problem) -> String {
-        let title = if problem.key.is_empty() {
-            problem.message.clone()
-        } else {
-            format!("{}: {}", problem.key, problem.message)
-        };
-        let mut group = Group::with_title(Level::ERROR.primary_title(title));
+    #[cfg(not(feature = "excerpts"))]
+    fn render_one(&self, _: bool, problem: &Problem) -> String {
+        let help = problem.help.iter().map(|help| format!("\nhelp: {help}"));
+        std::iter::once(format!("error: {}", problem.title())).chain(help).collect()
+    }
+
+    #[cfg(feature = "excerpts")]
+    fn render_one(&self, colour: bool, problem: &Problem) -> String {
+        let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+        let mut group = Group::with_title(Level::ERROR.primary_title(problem.title()));
         let window = problem.place.as_ref().and_then(|place| {
             let source = self.sources.get(place.source)?;
             window(&source.text, place).map(|window| (source, window))
@@ -217,6 +225,7 @@ pub(super) fn inside(place: &Place, text: &str, span: Range<usize>, problems: &P
 }
 
 /// The line of a place, with the place as a span of it.
+#[cfg(feature = "excerpts")]
 struct Window<'t> {
     text: &'t str,
     line: usize,
@@ -224,6 +233,7 @@ struct Window<'t> {
 }
 
 /// The first line of the place, cut to at most some hundred bytes around it.
+#[cfg(feature = "excerpts")]
 fn window<'t>(text: &'t str, place: &Place) -> Option<Window<'t>> {
     const MARGIN: usize = 200;
     let (start, end) = clamp(text, place);

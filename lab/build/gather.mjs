@@ -37,12 +37,13 @@ function files(folder, texts) {
     const content = text(path);
     if (content.length > LARGEST) return;
     const within = content.length <= LARGE || from === FIRST;
-    if (!within) large[posix.basename(name)] = content;
-    found[name] = within ? content : null;
+    // Beside the page its name is its path, so that two of one name are two.
+    const beside = path.replaceAll("/", "-");
+    if (!within) large[beside] = content;
+    found[name] = within ? content : { beside };
     if (!/\.(dat|inp|yaml|yml|htc)$/i.test(name)) return;
     for (const [, further] of content.slice(0, 20000).matchAll(/^\s*"([^"\n]+\.(?:dat|csv|inp))"/gim)) {
-      const beside = posix.join(posix.dirname(name), further);
-      add(beside, from);
+      add(posix.join(posix.dirname(name), further), from);
     }
   };
   for (const of of texts) for (const [, name] of of.matchAll(/\bfile\s*=\s*["']([^"']+)["']/g)) add(name, folder);

@@ -2,7 +2,7 @@
 //
 //     node build/pictures.mjs ENGINE.wasm FOLDER
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { basename, join } from "node:path";
+import { join } from "node:path";
 import { numbers as decoded, open } from "../engine/engine.mjs";
 
 const [WIDTH, HEIGHT, CURVE] = [240, 150, 44];
@@ -135,7 +135,7 @@ for (const item of items) {
   }
   const answer = (run) => {
     const { text, files } = cases[run.case ?? item.case];
-    const encoded = Object.fromEntries(Object.entries(files).map(([name, text]) => [name, Buffer.from(text ?? large[basename(name)]).toString("base64")]));
+    const encoded = Object.fromEntries(Object.entries(files).map(([name, text]) => [name, Buffer.from(text.beside ? large[text.beside] : text).toString("base64")]));
     return ask({ do: "run", case: text, files: encoded, set: run.set, errors: false, limits: { work: WORK, memory: 256e6 } });
   };
   const chosen = item.plot?.runs?.flatMap((name) => item.runs.filter((run) => run.name === name)) ?? [];

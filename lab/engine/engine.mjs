@@ -1,6 +1,9 @@
-// The engine in Node: `await open(FILE)` gives `ask(request)`, which returns the reply.
+// The engine in Node: `await open(FILE)` gives `ask(request)`, which returns the reply. A request that finds no memory is given up, and the next one
+// has an instance of its own.
 
 import { readFileSync } from "node:fs";
+
+class Exhausted extends Error {}
 
 /** Opens a module; `shown` gets what it shows while it computes. */
 export async function open(file, shown = () => {}) {
@@ -9,16 +12,28 @@ export async function open(file, shown = () => {}) {
     const env = {
         clock: () => performance.now() / 1000,
         progress: (address, length) => shown(JSON.parse(text(address, length))),
+        exhausted: () => {
+            throw new Exhausted();
+        },
     };
-    const { exports } = await WebAssembly.instantiate(module, { env });
+    const instance = () => new WebAssembly.Instance(module, { env }).exports;
+    let exports = instance();
     const memory = () => exports.memory;
-    const ask = (request) => {
-        const bytes = new TextEncoder().encode(typeof request === "string" ? request : JSON.stringify(request));
+    const answered = (bytes) => {
         const address = exports.allocate(bytes.length);
         new Uint8Array(memory().buffer).set(bytes, address);
         const reply = exports.call(address, bytes.length);
         exports.release(address, bytes.length);
         return JSON.parse(text(reply, exports.reply_length()));
+    };
+    const ask = (request) => {
+        try {
+            return answered(new TextEncoder().encode(typeof request === "string" ? request : JSON.stringify(request)));
+        } catch (error) {
+            if (!(error instanceof Exhausted)) throw error;
+            exports = instance();
+            return { status: "given-up", message: "given up at the limit of the memory that it may take" };
+        }
     };
     return { ask, memory: () => memory().buffer.byteLength };
 }

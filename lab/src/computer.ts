@@ -168,7 +168,8 @@ export class Computer {
       }
       text = reply.case;
     }
-    const reply = await this.quick.ask({ do: "check", case: text, files, limits: this.limits(false) }, PATIENCE);
+    const reply = await this.quick.ask({ do: "check", case: text, files, limits: this.limits() }, PATIENCE);
+    if (reply.status === "given-up") return void this.fine(reply);
     if (!this.told.checked(reply, text, asked)) return;
     // A newer text is read first; under a slider every answer that is short is shown.
     if (this.wanted && !asked.sliding) return;
@@ -196,7 +197,7 @@ export class Computer {
     }
     this.told.answered(kind, first, modes);
     if (first.status === "given-up") {
-      this.told.said("This is as far as two seconds of work lead.", undefined, "compute");
+      this.offer("This is as far as two seconds of work lead.", first);
       return;
     }
     this.told.said("");
@@ -208,7 +209,7 @@ export class Computer {
     if (this.wanted) return;
     // Where the companions took too long, the run stands without a band.
     if (whole.results && whole.status !== "given-up") this.told.answered(kind, whole);
-    if (whole.status === "given-up") this.told.said("The error takes longer to estimate.", undefined, "compute");
+    if (whole.status === "given-up") this.offer("The error takes longer to estimate.", whole);
     else this.told.said("");
   }
 
@@ -220,11 +221,17 @@ export class Computer {
     return `0 rad/s:${nice(2 * (lowest[0] ?? 5))} rad/s:31`;
   }
 
+  /** What was given up is offered behind a click; where the click was made already, it says why. */
+  private offer(words: string, { message }: Reply) {
+    if (this.lifted) this.told.said(message ?? words);
+    else this.told.said(words, undefined, "compute");
+  }
+
   /** Whether there is something to be drawn; else it says why not. */
   private fine(reply: Reply): boolean {
     if (reply.results) return true;
-    if (reply.status === "given-up") {
-      this.told.said("This takes more than two seconds.", undefined, "compute");
+    if (reply.status === "given-up" && !this.lifted) {
+      this.offer(`This takes more than ${reply.message?.includes("memory") ? `${MEMORY / 1e6} MB` : "two seconds"}.`, reply);
       return false;
     }
     const words = reply.problems?.map(({ message }) => message).join("; ") || reply.message || "There is no answer.";

@@ -26,10 +26,12 @@ export interface Item {
   runs: Run[];
 }
 
+/** Texts of files by the names that a case has for them; a large one lies beside the page, under a name of its own. */
+type Files = Record<string, string | { beside: string }>;
+
 interface Case {
   text: string;
-  /** Texts; a large one lies beside the page. */
-  files: Record<string, string | null>;
+  files: Files;
 }
 
 const gallery = stored as unknown as { cases: Record<string, Case>; items: Item[] };
@@ -39,7 +41,7 @@ const cases = new Map(Object.entries(gallery.cases));
 export const first = "p1_spin_up_4";
 
 /** An item with one of its runs. */
-export function named(id: string, run?: string): { item: Item; run: Run; text: string; files: Record<string, string | null>; path: string } | undefined {
+export function named(id: string, run?: string): { item: Item; run: Run; text: string; files: Files; path: string } | undefined {
   const item = items.get(id);
   const found = item && (run === undefined ? item.runs[0] : item.runs.find(({ name }) => name === run));
   const path = found?.case ?? item?.case;
@@ -48,14 +50,14 @@ export function named(id: string, run?: string): { item: Item; run: Run; text: s
 }
 
 /** The texts of files; large ones are within the page, or else beside it. */
-export async function texts(files: Record<string, string | null>): Promise<Record<string, string>> {
+export async function texts(files: Files): Promise<Record<string, string>> {
   const within = JSON.parse(document.getElementById("files")?.textContent ?? "{}") as Record<string, string>;
   const found = Object.entries(files).map(async ([name, text]): Promise<[string, string]> => {
-    const own = name.split("/").at(-1)!;
-    if (text !== null) return [name, text];
-    if (Object.hasOwn(within, own)) return [name, within[own]];
-    const answer = await fetch(`files/${own}`);
-    if (!answer.ok) throw new Error(`The file ${own} of this case cannot be read.`);
+    if (typeof text === "string") return [name, text];
+    const { beside } = text;
+    if (Object.hasOwn(within, beside)) return [name, within[beside]];
+    const answer = await fetch(`files/${beside}`);
+    if (!answer.ok) throw new Error(`The file ${name} of this case cannot be read.`);
     return [name, await answer.text()];
   });
   return Object.fromEntries(await Promise.all(found));

@@ -462,6 +462,12 @@ element("pin").addEventListener("click", () => {
   else if (shown) answered(shown.kind, shown.reply);
 });
 
+// The address is that of the case.
+document.querySelector(".skip")!.addEventListener("click", (event) => {
+  event.preventDefault();
+  element("result").focus();
+});
+
 // A menu closes when something in it was chosen, or something else was.
 for (const menu of all("details.menu") as HTMLDetailsElement[]) {
   document.addEventListener("click", (event) => {
@@ -469,7 +475,9 @@ for (const menu of all("details.menu") as HTMLDetailsElement[]) {
     if (!menu.contains(target) || (target as HTMLElement).matches("div button")) menu.open = false;
   });
   menu.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") menu.open = false;
+    if (event.key !== "Escape" || !menu.open) return;
+    menu.open = false;
+    menu.querySelector("summary")!.focus();
   });
 }
 

@@ -8,6 +8,8 @@ interface Exports {
   reply_length(): number;
 }
 
+class Exhausted extends Error {}
+
 let engine: Exports | undefined;
 const { port } = { port: self as unknown as Worker };
 
@@ -16,6 +18,9 @@ const text = (at: number, bytes: number) => new TextDecoder().decode(new Uint8Ar
 const env = {
   clock: () => performance.now() / 1000,
   progress: (at: number, bytes: number) => port.postMessage({ progress: text(at, bytes) }),
+  exhausted: () => {
+    throw new Exhausted();
+  },
 };
 
 function reply(request: string): string {
@@ -28,13 +33,20 @@ function reply(request: string): string {
   return answer;
 }
 
+let module: WebAssembly.Module | undefined;
+const start = () => (engine = new WebAssembly.Instance(module!, { env }).exports as unknown as Exports);
+
 self.onmessage = ({ data }: MessageEvent<{ module?: WebAssembly.Module; request?: string }>) => {
   try {
-    if (data.module) engine = new WebAssembly.Instance(data.module, { env }).exports as unknown as Exports;
+    if (data.module) {
+      module = data.module;
+      start();
+    }
     if (data.request) port.postMessage({ reply: reply(data.request), bytes: engine!.memory.buffer.byteLength });
   } catch (error) {
-    // A module that finds no memory ends at an instruction of this name.
-    const message = String((error as Error).message ?? error);
-    port.postMessage({ trap: message.startsWith("unreachable") ? "the case takes more memory than there is, or the engine has a fault" : message });
+    if (!(error instanceof Exhausted)) return port.postMessage({ trap: String((error as Error).message ?? error) });
+    // What the instance holds is of no use.
+    start();
+    port.postMessage({ reply: JSON.stringify({ status: "given-up", message: "It takes more memory than it may." }), bytes: 0 });
   }
 };

@@ -4,6 +4,7 @@
 import assert from "node:assert/strict";
 import { join, resolve } from "node:path";
 import { deflateRawSync } from "node:zlib";
+import { faint } from "./contrast.mjs";
 import { answered, launch, opened, serve } from "./open.mjs";
 
 const option = (name) => {
@@ -336,6 +337,117 @@ const journeys = {
     await answered(page);
     assert.ok(await page.locator("#case").isHidden());
     assert.match(await page.textContent("#notes"), /made with Flexion 0\.0\.1/);
+  },
+  async "with the keyboard alone"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    const press = async (...keys) => {
+      for (const key of keys) await page.keyboard.press(key);
+    };
+    const focused = () => page.evaluate(() => {
+      const node = document.activeElement;
+      const { top, bottom, left, right } = node.getBoundingClientRect();
+      const style = getComputedStyle(node);
+      return {
+        name: node.id || node.ariaLabel || node.textContent.trim(),
+        seen: bottom > 0 && top < innerHeight && right > 0 && left < innerWidth,
+        ringed: style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0,
+        body: node === document.body,
+      };
+    });
+    // Every stop is seen and has a ring, and after the last one comes the page itself.
+    const stops = [];
+    for (let k = 0; k < 150; k++) {
+      await press("Tab");
+      const stop = await focused();
+      if (stop.body) break;
+      stops.push(stop);
+    }
+    assert.ok(stops.length < 150, "nothing holds the focus");
+    assert.deepEqual(stops.filter(({ seen, ringed }) => !seen || !ringed).map(({ name }) => name), [], "the focus is seen");
+    const names = stops.map(({ name }) => name);
+    for (const name of ["open-gallery", "pin", "Copy", "Save", "run", "tab-form", "key-beam.length", "beam.length", "Motion", "Campbell diagram", "Fit", "play", "scrubber", "speed"]) {
+      assert.ok(names.includes(name), `${name} is among ${names.join(", ")}`);
+    }
+    // From the head of the page: its first stop leads to the answer.
+    await page.evaluate(() => document.querySelector("#home").focus());
+    await press("Shift+Tab", "Enter");
+    assert.equal((await focused()).name, "result");
+    assert.ok((await fragment(page)).startsWith("#case="), "the case stays in the address");
+    // A dialog and a menu give the focus back.
+    await page.focus("#open-gallery");
+    await press("Enter");
+    assert.ok(await page.evaluate(() => document.activeElement.closest("#gallery") !== null));
+    await press("Escape");
+    assert.equal((await focused()).name, "open-gallery");
+    await page.focus("#copy summary");
+    await press("Enter", "Tab");
+    assert.equal((await focused()).name, "Link to this case");
+    await press("Escape");
+    assert.equal((await focused()).name, "Copy");
+    assert.ok(!(await page.$eval("#copy", (menu) => menu.open)));
+    // A slider, and the tabs.
+    const before = await page.inputValue("#key-hub\\.motion\\.speed");
+    await page.focus('input[type=range][aria-label="hub.motion.speed"]');
+    await press("ArrowRight", "ArrowRight", "ArrowRight");
+    await page.waitForFunction((before) => document.querySelector("#key-hub\\.motion\\.speed").value !== before, before);
+    await answered(page);
+    await page.focus("[data-kind=run]");
+    await press("ArrowRight");
+    await page.waitForSelector("[data-kind=modes][aria-selected=true]");
+    await answered(page);
+    // The editor does not hold the focus.
+    await page.focus("#tab-form");
+    await press("ArrowRight");
+    await page.waitForSelector(".cm-editor");
+    await page.focus(".cm-content");
+    await press("Tab");
+    assert.ok(await page.evaluate(() => document.activeElement.closest(".cm-editor") === null), "Tab leads out of the editor");
+  },
+  async "every colour can be told from its ground"(page) {
+    const look = async (where) => {
+      for (const colorScheme of ["light", "dark"]) {
+        await page.emulateMedia({ colorScheme });
+        assert.deepEqual(await page.evaluate(faint), [], `${colorScheme}, ${where}`);
+      }
+    };
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    await page.click("#save summary");
+    await look("a menu");
+    await page.keyboard.press("Escape");
+    await page.click("#pin");
+    await page.selectOption("#key-model\\.coupling", "exact");
+    await page.waitForSelector("#notes .pinned");
+    await answered(page);
+    await look("a pinned answer");
+    await page.click("#open-gallery");
+    await look("the gallery");
+    await page.keyboard.press("Escape");
+    await edit(page, "10 m\"", "10 kg\"");
+    await page.waitForSelector("#text .cm-lintRange-error");
+    await look("a broken case");
+    for (const other of ["p1_spin_up_4&do=campbell", "roll_up&do=statics", "modes_blade_nrel_5mw"]) {
+      await page.goto("about:blank");
+      await page.goto(`${lab}#case=${other}`);
+      await answered(page);
+      await look(other);
+    }
+  },
+  async "two tabs at once"(page) {
+    const other = await page.context().newPage();
+    await Promise.all([page.goto(`${lab}#case=p1_spin_up_4`), other.goto(`${lab}#case=space_joints`)]);
+    await Promise.all([answered(page), answered(other)]);
+    assert.match(await other.textContent("#title"), /bar falls/);
+    await Promise.all([slide(page, "hub.motion.speed", 0.75), slide(other, "body[1].mass", 0.7)]);
+    await Promise.all([answered(page), answered(other)]);
+    await page.waitForFunction(() => location.hash.includes("hub.motion.speed"));
+    await other.waitForFunction(() => location.hash.includes("body"));
+    assert.doesNotMatch(await fragment(page), /body/);
+    assert.ok(number((await values(page, "tip.deflection"))[0]) < -0.48, "each has its own answer");
+    await other.close();
+    await slide(page, "hub.motion.speed", 0.5);
+    await answered(page);
   },
   async "a long run waits for a click, and is stopped"(page) {
     await page.goto(`${lab}#case=p1_spin_up_4&set=run.duration=4000 s&set=output.step=1 ms`);

@@ -8,8 +8,10 @@
 //! | `reply_length()` | bytes of the reply, which is there until the next call |
 //! | `env.clock()` | seconds, from any time on |
 //! | `env.progress(address, bytes)` | is shown JSON, UTF-8, while a request is answered |
+//! | `env.exhausted()` | is called where memory is asked for and there is none, and throws |
 //!
-//! A panic is a trap, which `env.progress` is told before: what the module then holds is of no use.
+//! A panic is a trap, which `env.progress` is told before. What the module holds behind that, or behind `env.exhausted`, is of no use: the next
+//! request wants another instance.
 
 use std::alloc::{Layout, alloc, dealloc};
 use std::sync::{Mutex, Once, PoisonError};
@@ -18,6 +20,12 @@ use std::sync::{Mutex, Once, PoisonError};
 unsafe extern "C" {
     safe fn clock() -> f64;
     safe fn progress(address: *const u8, bytes: usize);
+    safe fn exhausted();
+}
+
+/// Ends the request for want of memory.
+pub(crate) fn end() {
+    exhausted();
 }
 
 static REPLY: Mutex<String> = Mutex::new(String::new());

@@ -30,12 +30,16 @@ mod counted {
     unsafe impl GlobalAlloc for Counted {
         unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
             let used = USED.load(Relaxed).saturating_add(layout.size());
-            if used / 2 > LIMIT.load(Relaxed) {
-                return std::ptr::null_mut();
+            if used / 2 <= LIMIT.load(Relaxed) {
+                USED.store(used, Relaxed);
+                // SAFETY: as the caller promises.
+                let address = unsafe { System.alloc(layout) };
+                if !address.is_null() {
+                    return address;
+                }
             }
-            USED.store(used, Relaxed);
-            // SAFETY: as the caller promises.
-            unsafe { System.alloc(layout) }
+            crate::exports::end();
+            std::ptr::null_mut()
         }
 
         unsafe fn dealloc(&self, address: *mut u8, layout: Layout) {

@@ -115,7 +115,7 @@ pub trait BladeSection: Send + Sync + std::fmt::Debug {
                 1.0 + r.twist,
             ]
         };
-        ends(cells, h, (self.breaks(), self.jumps()), values)
+        ends(cells, h, (self.breaks(), self.jumps()), &values)
     }
 }
 

@@ -29,7 +29,7 @@ pub(crate) fn ends<const N: usize>(
     cells: &[f64],
     h: f64,
     (breaks, jumps): (&[f64], &[f64]),
-    values: impl Fn(f64) -> [f64; N],
+    values: &dyn Fn(f64) -> [f64; N],
 ) -> Vec<f64> {
     let length = cells.last().copied().unwrap_or_default();
     let mut ends: Vec<f64> = jumps.iter().copied().filter(|x| 0.0 < *x && *x < length).collect();
@@ -40,12 +40,12 @@ pub(crate) fn ends<const N: usize>(
         borders.dedup_by(|b, a| *b - *a <= INSIDE * length);
         let stations = || breaks.iter().copied().chain([0.0, length]);
         let largest = stations()
-            .map(&values)
+            .map(values)
             .fold([0.0_f64; N], |most, f| std::array::from_fn(|i| most[i].max(f[i].abs())));
         for pair in borders.windows(2) {
             let rows = &breaks[breaks.partition_point(|x| *x <= pair[0])..];
             let rows = &rows[..rows.partition_point(|x| *x < pair[1])];
-            divide([pair[0], pair[1]], rows, [h, LEAST * length], &largest, &values, &mut ends);
+            divide([pair[0], pair[1]], rows, [h, LEAST * length], &largest, values, &mut ends);
         }
     }
     ends.sort_by(f64::total_cmp);
@@ -59,7 +59,7 @@ fn divide<const N: usize>(
     rows: &[f64],
     [h, least]: [f64; 2],
     largest: &[f64; N],
-    values: &impl Fn(f64) -> [f64; N],
+    values: &dyn Fn(f64) -> [f64; N],
     ends: &mut Vec<f64>,
 ) {
     let (first, last) = (values(a + INSIDE * (b - a)), values(b - INSIDE * (b - a)));
@@ -124,7 +124,7 @@ mod tests {
             [f + (x - a) / (b - a) * (g - f)]
         };
         let cells: Vec<f64> = (0..=(10.0 / h) as usize).map(|i| h * i as f64).collect();
-        ends(&cells, h, (&breaks, &[]), line)
+        ends(&cells, h, (&breaks, &[]), &line)
     }
 
     /// A notch of 6 cm, of a hundredth or to a hundredth of the section; one of a millionth is none.

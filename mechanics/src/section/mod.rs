@@ -222,7 +222,7 @@ pub trait Section: Send + Sync + std::fmt::Debug {
                 r.bending_stiffness,
             ]
         };
-        ends::ends(cells, h, (self.breaks(), self.jumps()), values)
+        ends::ends(cells, h, (self.breaks(), self.jumps()), &values)
     }
 
     /// Heights of the lower and upper fibre \[m\] if the shape of the section is known.
