@@ -297,7 +297,7 @@ fn the_equilibrium_followed_from_rest_does_not_depend_on_the_speeds() {
 #[test]
 fn a_straight_shaft_has_one_critical_speed_and_the_ranges_of_its_whirls() {
     let first = 3.516015;
-    for distance in [0.0, 1e-13, 1e-10] {
+    for distance in [0.0, 1e-13] {
         for speeds in [5, 17] {
             let found = diagram(&beside(distance), speeds);
             let [critical] = found.campbell.criticals.as_slice() else {
