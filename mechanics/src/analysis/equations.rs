@@ -71,6 +71,8 @@ pub(super) struct Equations<'a> {
     pub iterations: u32,
     /// Weight σ of the masses in J, K + σM in the place of K: it holds motions that have no stiffness.
     pub hold: f64,
+    /// Iterations allowed at a level.
+    pub allowed: u32,
     scales: Vec<f64>,
     start: Vec<f64>,
     tangent: Matrix,
@@ -90,7 +92,18 @@ impl<'a> Equations<'a> {
         apply(system, 0.0);
         system.residual(state, &mut start);
         let (r, by_part, moved) = (vec![0.0; n + m], vec![0.0; n + m], state.q.clone());
-        Equations { system, iterations: 0, hold: 0.0, scales, start, tangent, r, by_part, moved }
+        Equations {
+            system,
+            iterations: 0,
+            hold: 0.0,
+            allowed: ITERATIONS[0],
+            scales,
+            start,
+            tangent,
+            r,
+            by_part,
+            moved,
+        }
     }
 
     /// Writes F into `r`.
@@ -232,7 +245,7 @@ impl<'a> Equations<'a> {
         part: &mut f64,
         path: Option<&Direction>,
     ) -> Result<u32, Failure> {
-        let allowed = ITERATIONS[usize::from(path.is_some())];
+        let allowed = if path.is_some() { ITERATIONS[1] } else { self.allowed };
         let (mut least, mut stalled) = (f64::INFINITY, 0);
         for iteration in 0..=allowed {
             self.residual(state, *part);

@@ -19,6 +19,8 @@ use std::ops::ControlFlow;
 
 /// Smallest part of the load by which continuation goes on.
 const SMALLEST: f64 = 1e-6;
+/// Iterations to an equilibrium nearby.
+const NEARBY: u32 = 10;
 /// Weights of the masses that hold motions without stiffness, over the square of the highest frequency, one after the other: rounding
 /// moves them the less, and soft motions converge the slower.
 const HOLDS: [f64; 3] = [1e-12, 1e-10, 1e-8];
@@ -68,41 +70,22 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     direct(system, state, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The equilibrium under all of the loads to which Newton's method leads from one nearby, without smaller parts of them.
-pub(super) fn nearby(
-    system: &mut dyn System,
-    state: &mut State,
-    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Effort, NoEquilibrium> {
-    find(system, state, 1.0, watch)
-}
-
 /// The same; `watch` is shown the part of the loads of every level that is tried, and ends the search by `Break`.
 pub(super) fn direct(
     system: &mut dyn System,
     state: &mut State,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Effort, NoEquilibrium> {
-    find(system, state, SMALLEST, watch)
-}
-
-/// The same with the smallest part of the loads by which continuation goes on.
-fn find(
-    system: &mut dyn System,
-    state: &mut State,
-    smallest: f64,
-    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Effort, NoEquilibrium> {
     let start = state.clone();
     if !system.contacts(&start).is_empty() && is_neutral(system, &start) {
         return come_to_rest(system, state, watch);
     }
-    let (mut result, singular) = follow_loads(system, state, 0.0, smallest, watch);
+    let (mut result, singular) = follow_loads(system, state, 0.0, watch);
     if result.is_err() && (singular || is_neutral(system, &start)) {
         let highest = highest(system, &start);
         for hold in HOLDS.map(|part| part * highest).into_iter().filter(|hold| *hold > 0.0) {
             let mut held = start.clone();
-            if let (Ok(effort), _) = follow_loads(system, &mut held, hold, smallest, watch)
+            if let (Ok(effort), _) = follow_loads(system, &mut held, hold, watch)
                 && release(system, &mut held).is_ok()
             {
                 state.copy_from(&held);
@@ -112,6 +95,33 @@ fn find(
         }
     }
     result
+}
+
+/// The equilibrium under all of the loads to which Newton's method leads from one nearby, in few iterations.
+pub(super) fn nearby(
+    system: &mut dyn System,
+    state: &mut State,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Effort, NoEquilibrium> {
+    if watch(1.0).is_break() {
+        return Err(stopped(system, state.t, 0.0));
+    }
+    let start = state.clone();
+    let mut equations = Equations::new(system, state);
+    equations.allowed = NEARBY;
+    apply(equations.system, 1.0);
+    joints::balance(equations.system, state);
+    match equations.solve(state, &mut 1.0, None) {
+        Ok(iterations) => Ok(Effort { levels: 1, iterations }),
+        Err(_) if is_neutral(equations.system, &start) => {
+            state.copy_from(&start);
+            direct(system, state, watch)
+        }
+        Err(Failure { what, worst, .. }) => {
+            let worst = equations.system.unknown(worst);
+            Err(NoEquilibrium { time: state.t, reached: 0.0, what, worst })
+        }
+    }
 }
 
 /// Solves again without the masses that held an equilibrium, if all of its motions have a stiffness.
@@ -161,7 +171,6 @@ fn follow_loads(
     system: &mut dyn System,
     state: &mut State,
     hold: f64,
-    smallest: f64,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> (Result<Effort, NoEquilibrium>, bool) {
     let mut equations = Equations::new(system, state);
@@ -189,7 +198,7 @@ fn follow_loads(
                 singular |= failure.singular;
                 state.copy_from(&good);
                 part = 0.25 * (level - reached);
-                if part < smallest {
+                if part < SMALLEST {
                     apply(equations.system, 1.0);
                     let worst = equations.system.unknown(failure.worst);
                     let none = NoEquilibrium { time: state.t, reached, what: failure.what, worst };

@@ -13,6 +13,8 @@ const SMALLEST: f64 = 1e-8;
 const LEAST: f64 = 1e-4;
 /// Step, over the speed, across which the number of negative directions of the stiffness may change.
 const CRITICAL: f64 = 1e-5;
+/// Steps that may be too long.
+const TRIES: u32 = 200;
 /// Motion in a step, over the size of the system, and in one across which that number changes.
 const FAR: f64 = 0.1;
 const BESIDE: f64 = 3e-4;
@@ -103,7 +105,7 @@ impl NoRotation {
 ///
 /// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω, under all of the loads; where they have none at `from` = 0, they grow at the first speed
 /// that allows one. A step of the speed is divided until it moves the system by a tenth of its size at most and K has as many
-/// negative directions behind it as before: beyond a critical speed another equilibrium lies nearby, on the other side of the axis. A step
+/// negative directions behind it as before; it begins where the last step leads. Beyond a critical speed another equilibrium lies nearby, on the other side of the axis. A step
 /// of 1e-5 of the speed that moves the system by 3e-4 of its size at most passes a critical one, so that a shaft that lies on the axis, but
 /// for 1e-10 of its length, stays straight; from 1e-9 on it bends outwards, and has no critical speed. `watch` is called for every
 /// equilibrium that is tried on the way, and ends the search by `false`.
@@ -126,6 +128,9 @@ pub fn rotate(
     if from != 0.0 && system.set(Parameter::Speed, from).is_ok() {
         before = Some(negative_parts(system, state));
     }
+    let mut tries = 0;
+    // The step that led there, and by which increment of the configuration.
+    let mut secant: Option<(f64, Vec<f64>)> = None;
     let mut reached = from;
     let mut step = if before.is_some() { to - from } else { 0.0 };
     loop {
@@ -146,7 +151,14 @@ pub fn rotate(
         let unit = reached.abs().max(next.abs()).max(LEAST * to.abs());
         let found = set.and_then(|()| match before {
             None => direct(system, state, &mut level),
-            Some(_) => nearby(system, state, &mut level),
+            Some(_) => {
+                if let Some((step, moved)) = &secant {
+                    let part = (next - reached) / step;
+                    let predicted: Vec<f64> = moved.iter().map(|d| part * d).collect();
+                    system.retract(&good.q, &predicted, &mut state.q);
+                }
+                nearby(system, state, &mut level)
+            }
         });
         let found = found.and_then(|spent| {
             let now = negative_parts(system, state);
@@ -157,16 +169,19 @@ pub fn rotate(
                 Some(_) if is_critical => BESIDE,
                 Some(_) => 0.0,
             };
-            if moved(system, &good, state) > allowed {
+            let mut moved = vec![0.0; state.v.len()];
+            system.difference(&good.q, &state.q, &mut moved);
+            if largest(&moved, system.scales()).1 > allowed {
                 return Err(none("no equilibrium is near the last one".to_owned()));
             }
-            Ok((spent, now))
+            Ok((spent, now, moved))
         });
         match found {
-            Ok((spent, now)) => {
+            Ok((spent, now, moved)) => {
                 effort.levels += spent.levels;
                 effort.iterations += spent.iterations;
                 good.copy_from(state);
+                secant = before.filter(|_| next != reached).map(|_| (next - reached, moved));
                 (before, reached) = (Some(now), next);
                 if next == to {
                     return Ok(effort);
@@ -177,7 +192,8 @@ pub fn rotate(
                 state.copy_from(&good);
                 // Without an equilibrium at rest the first speed is tried.
                 step = if next == reached { to - from } else { 0.25 * (next - reached) };
-                if step.abs() < SMALLEST * unit || step == 0.0 || !goes_on {
+                tries += 1;
+                if step.abs() < SMALLEST * unit || step == 0.0 || tries > TRIES || !goes_on {
                     let why = if goes_on { system.explain(state) } else { None };
                     let _ = system.set(Parameter::Speed, reached);
                     return Err(match goes_on {
@@ -188,13 +204,6 @@ pub fn rotate(
             }
         }
     }
-}
-
-/// By how much of its size a system moves from one state to another.
-fn moved(system: &dyn System, from: &State, to: &State) -> f64 {
-    let mut d = vec![0.0; from.v.len()];
-    system.difference(&from.q, &to.q, &mut d);
-    largest(&d, system.scales()).1
 }
 
 fn because(why: &Option<Box<Limit>>) -> String {
