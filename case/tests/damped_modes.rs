@@ -26,7 +26,7 @@ fn diagram(reading: &Reading, speeds: &[f64], count: usize) -> Diagram {
         threads: 1,
         units: UNITS,
     };
-    reading.campbell(&request, &|_| true).unwrap_or_else(|error| panic!("{error}"))
+    reading.campbell(&request, &|_, _| true).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// A published blade whose damping is so many times that of its deck.

@@ -169,7 +169,7 @@ fn the_branches_of_shafts_that_are_free_to_turn_are_their_whirls() {
         let (count, threads) = (8 * names.len(), 1);
         let request =
             DiagramRequest { speeds, count, revolutions: 1, margin: 5.0, free_hub: false, threads, units };
-        let found = reading.campbell(&request, &|_| true).unwrap_or_else(|error| panic!("{error}"));
+        let found = reading.campbell(&request, &|_, _| true).unwrap_or_else(|error| panic!("{error}"));
         let branches = &found.campbell.branches;
         for turning in &branches[..names.len()] {
             assert!(
@@ -217,7 +217,7 @@ fn the_search_for_a_steady_rotation_can_be_stopped() {
         threads: 1,
         units: Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS },
     };
-    let found = reading.campbell(&request, &|_| asked.fetch_add(1, Ordering::Relaxed) < 20).unwrap();
+    let found = reading.campbell(&request, &|_, _| asked.fetch_add(1, Ordering::Relaxed) < 20).unwrap();
     assert!(asked.into_inner() < 24, "it ends where it is told to");
     assert_eq!(found.campbell.speeds, [0.0], "what was found is kept");
     assert!(found.incomplete.iter().any(|why| why.contains("stopped")), "{:?}", found.incomplete);
@@ -264,7 +264,7 @@ fn diagram(reading: &Reading, speeds: usize) -> flexion_case::Diagram {
     let units = Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS };
     let request =
         DiagramRequest { speeds, count: 3, revolutions: 1, margin: 5.0, free_hub: false, threads: 1, units };
-    reading.campbell(&request, &|_| true).unwrap_or_else(|error| panic!("{error}"))
+    reading.campbell(&request, &|_, _| true).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Beyond its critical speed a cantilever beside the axis has several equilibria: the one followed from rest is taken, whatever the speeds. The frequencies of 0.1 are those

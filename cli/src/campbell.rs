@@ -92,7 +92,7 @@ fn diagram(arguments: &Arguments, reading: &Reading) -> Result<Outcome, Vibratio
         bar.set_style(style);
     }
     let stop = stop_on_ctrl_c();
-    let progress = |done: usize| {
+    let progress = |done: usize, _: f64| {
         bar.set_position(done as u64);
         !stop.load(Ordering::Relaxed)
     };

@@ -123,7 +123,7 @@ impl Diagram {
     ) -> PyResult<(Diagram, Option<PyErr>)> {
         let watch = Mutex::new(watch);
         let count = request.speeds.len();
-        let progress = |done: usize| {
+        let progress = |done: usize, _: f64| {
             // What another thread asks at this moment holds for this one too.
             let Ok(mut watch) = watch.try_lock() else { return true };
             watch.show(done as f64 / count as f64, || format!("{done} of {count} speeds")).is_continue()

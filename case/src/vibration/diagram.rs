@@ -48,14 +48,14 @@ pub struct Diagram {
 
 impl Reading {
     /// The modes of the case over speeds of steady rotation, followed by their shapes. `progress` is called with the number of speeds
-    /// that are done, and stops by `false`: the diagram ends there.
+    /// that are done and the work since its last call, in that of the modes at one speed, and stops by `false`: the diagram ends there.
     ///
     /// # Errors
     /// [`VibrationError`]: a case with parts that do not rotate steadily, speeds that do not ascend from zero, no modes at the first speed.
     pub fn campbell(
         &self,
         request: &DiagramRequest,
-        progress: &(dyn Fn(usize) -> bool + Sync),
+        progress: &(dyn Fn(usize, f64) -> bool + Sync),
     ) -> Result<Diagram, VibrationError> {
         self.fits_modes()?;
         let (case, units) = (&self.case, &request.units);
@@ -86,8 +86,8 @@ impl Reading {
             Err(why) => (None, Some(why)),
         };
         let stopped = AtomicBool::new(false);
-        let watched = |done: usize| {
-            let goes_on = progress(done);
+        let watched = |done: usize, work: f64| {
+            let goes_on = progress(done, work);
             stopped.fetch_or(!goes_on, Ordering::Relaxed);
             goes_on
         };

@@ -6,10 +6,15 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::thread;
 
+/// Work of an equilibrium that is tried, and of the modes by a mesh of twice as many elements, over that of the modes at one speed.
+const EQUILIBRIUM: f64 = 0.125;
+const FINER: f64 = 2.0;
+
 /// Computes the diagram of `system` on `threads` threads, 0 for as many as the machine has, each with a fork of it: the same
 /// diagram for any number of them. With a finer mesh of the same system, whose differences times `safety` estimate the errors of
 /// the frequencies, these are computed too.
-/// `progress` is called with the number of speeds that are done, and stops by `false`: the diagram ends there.
+/// `progress` is called with the number of speeds that are done and the work since its last call, in that of the modes at one speed, and stops
+/// by `false`: the diagram ends there.
 ///
 /// # Errors
 /// [`NoCampbell`].
@@ -21,21 +26,21 @@ pub fn campbell(
     finer: Option<(Box<dyn Fork>, f64)>,
     plan: &Plan,
     threads: usize,
-    progress: &(dyn Fn(usize) -> bool + Sync),
+    progress: &(dyn Fn(usize, f64) -> bool + Sync),
 ) -> Result<Campbell, NoCampbell> {
     let (stop, done) = (AtomicBool::new(false), AtomicUsize::new(0));
-    let next = |solved: usize| {
-        if !progress(solved + done.fetch_add(solved, Ordering::Relaxed)) {
+    let next = |solved: usize, work: f64| {
+        if !progress(solved + done.fetch_add(solved, Ordering::Relaxed), work) {
             stop.store(true, Ordering::Relaxed);
         }
         !stop.load(Ordering::Relaxed)
     };
-    let (one, again) = (|| next(1), || next(0));
+    let (one, again, one_finer) = (|| next(1, 1.0), || next(0, EQUILIBRIUM), || next(0, FINER));
     let (mut speeds, blocks) = computed(system, plan, threads, [&one, &again])?;
     let mut diagram = assemble(&mut speeds, blocks, again)?;
     if let Some((finer, safety)) = finer.filter(|_| diagram.speeds.len() > 1 && again()) {
         let plan = Plan { speeds: diagram.speeds.clone(), ..plan.clone() };
-        let (_, blocks) = computed(finer, &plan, threads, [&again, &again])?;
+        let (_, blocks) = computed(finer, &plan, threads, [&one_finer, &again])?;
         diagram.compare(blocks.iter().flat_map(Block::modes), safety);
         diagram.unestimated = blocks.iter().find_map(Block::failure).cloned();
     }

@@ -115,9 +115,10 @@ pub(crate) fn campbell(request: &Request, reading: &Reading, progress: &mut Prog
     allowed(request, reading, 1.0)?;
     let (of, unknowns) = (asked.speeds.len(), unknowns(reading));
     let work = Mutex::new(Work::new(request.work, progress));
-    let watched = |done: usize| {
+    let watched = |done: usize, part: f64| {
         let Ok(mut work) = work.lock() else { return false };
-        work.add(SPEED * unknowns, || json!({ "phase": "campbell", "speeds": done, "of": of })).is_continue()
+        work.add(part * SPEED * unknowns, || json!({ "phase": "campbell", "speeds": done, "of": of }))
+            .is_continue()
     };
     let found = reading.campbell(&asked, &watched);
     let given_up = work.into_inner().ok().and_then(|work| work.given_up);

@@ -9,7 +9,7 @@
 //! N. Gould, *Math. Program.* 32 (1985) 90–99, doi:10.1007/BF01585660 (inertia of matrices with multipliers).
 
 use super::rigid::{BELOW, certain_directions, elastic_frequency};
-use super::stiffness::{freedoms, matrices};
+use super::stiffness::{constrained, freedoms, matrices};
 use crate::linalg::Matrix;
 use crate::linalg::eigen::{EigenError, Pencil, UNCERTAIN, is_symmetric, negative_directions};
 use crate::system::{State, System};
@@ -69,8 +69,14 @@ fn rounds(all: [Matrix; 3], multipliers: usize) -> bool {
 /// Number of directions, allowed by the rows, in which xᵀKx is negative by more than rounding: a tangent with none is not singular,
 /// symmetric or not.
 pub(super) fn negative_parts(system: &mut dyn System, state: &State) -> usize {
-    let (all, multipliers) = matrices(system, state);
-    saddle(&symmetrized(&all), multipliers).unwrap_or_else(|_| negative_directions(&all[2], multipliers))
+    let (stiffness, multipliers) = constrained(system, state);
+    match negative_directions(&stiffness.symmetrized(), multipliers) {
+        0 => 0,
+        negative => {
+            let (all, multipliers) = matrices(system, state);
+            saddle(&symmetrized(&all), multipliers).unwrap_or(negative)
+        }
+    }
 }
 
 /// The stability of `state`, which is taken for an equilibrium as it stands.

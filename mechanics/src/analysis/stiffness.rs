@@ -27,6 +27,15 @@ pub(super) fn matrices(system: &mut dyn System, state: &State) -> ([Matrix; 3], 
     (all, multipliers)
 }
 
+/// K alone, as among the [matrices], and the number of multipliers.
+pub(super) fn constrained(system: &mut dyn System, state: &State) -> (Matrix, usize) {
+    let mut stiffness = [tangent(system, state, Weights::new(0.0, 0.0, 1.0), 1)];
+    let multipliers = joints::add(system, state, state.v.len(), &mut stiffness[0]);
+    hold_across(&system.across(), &mut stiffness, state.v.len());
+    let [stiffness] = stiffness;
+    (stiffness, multipliers)
+}
+
 /// Number of independent velocities in the plane of a system, of all without one, with the [stiffness](matrices) K of its unknowns.
 pub(super) fn freedoms(system: &dyn System, stiffness: &Matrix) -> usize {
     let n = system.size().v;
@@ -39,20 +48,20 @@ pub(super) fn freedoms(system: &dyn System, stiffness: &Matrix) -> usize {
 }
 
 /// Empties the rows and columns of unknowns but for a stiffness of their own, and of the multipliers behind the `n` velocities those
-/// whose rows held nothing else.
-fn hold_across(across: &[usize], all: &mut [Matrix; 3], n: usize) {
+/// whose rows held nothing else. The stiffness is the last.
+fn hold_across(across: &[usize], all: &mut [Matrix], n: usize) {
+    let [.., stiffness] = &*all else { return };
     if across.is_empty() {
         return;
     }
-    let [mass, _, stiffness] = &*all;
-    let own = |i: usize| [stiffness, mass].map(|of| of.get(i, i).abs()).into_iter().find(|x| *x > 0.0);
+    let own = |i: usize| [stiffness, &all[0]].map(|of| of.get(i, i).abs()).into_iter().find(|x| *x > 0.0);
     let held: Vec<f64> = across.iter().map(|i| own(*i).unwrap_or(1.0)).collect();
     let rows = n..stiffness.order();
     let before: Vec<f64> = rows.clone().map(|row| largest(stiffness, row)).collect();
     for matrix in &mut *all {
         across.iter().for_each(|i| empty(matrix, *i));
     }
-    let [_, _, stiffness] = all;
+    let [.., stiffness] = all else { return };
     across.iter().zip(held).for_each(|(i, held)| stiffness.add(*i, *i, held));
     for (row, before) in rows.zip(before) {
         if largest(stiffness, row) <= ROUNDING * before {
