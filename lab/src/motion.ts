@@ -81,8 +81,8 @@ function read(results: Results, other?: Results) {
     revolutions,
     pieces,
     instants,
-    /** The largest force [N] and the largest couple [N·m]. */
-    strongest: [strongest(space.forces), strongest(space.moments)],
+    /** The largest [N] or [N·m] of each kind. */
+    strongest: space.acting.map(strongest),
   };
 }
 
@@ -103,7 +103,7 @@ function turns(part: Part, times: Float64Array, recorded: Float64Array, angle?: 
 
 /** Whether runs are of the same parts at the same times: what is drawn of one can show the other. */
 function alike(one: Run, other: Run): boolean {
-  const form = ({ space: { times, parts, outlines, forces, moments, planar }, straight }: Run) => [
+  const form = ({ space: { times, parts, outlines, acting, planar }, straight }: Run) => [
     times.length,
     times[0],
     times[times.length - 1],
@@ -111,8 +111,7 @@ function alike(one: Run, other: Run): boolean {
     straight,
     ...parts.flatMap(({ name, beam, box }) => [name, ...(beam ? [beam.hub, ...beam.stations, ...beam.section] : box!)]),
     ...outlines.flatMap(({ name, points }) => [name, points.length]),
-    ...[...forces, ...moments].map(({ name }) => name),
-    forces.length,
+    ...acting.flatMap((of) => [of.length, ...of.map(({ name }) => name)]),
   ];
   const [a, b] = [form(one), form(other)];
   return a.length === b.length && a.every((entry, i) => entry === b[i]);
@@ -136,6 +135,7 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   let factor = kept?.factor ?? suggested();
   let rotating = kept?.rotating ?? run.revolutions > 0.5;
   let path = kept?.path ?? true;
+  let transmitted = kept?.transmitted ?? true;
 
   /** Places of forces or couples, and vectors as long as they are large. */
   function arrows(all: Acting[], strongest: number, at: Instant): [Vector3, Vector3][] {
@@ -229,8 +229,7 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
       outlines,
       frame: frame(at),
       others: others(time),
-      forces: arrows(space.forces, run.strongest[0], at),
-      moments: arrows(space.moments, run.strongest[1], at),
+      acting: space.acting.map((of, kind) => (transmitted || kind < 2 ? arrows(of, run.strongest[kind], at) : [])),
     });
     stage.follow(Math.floor(pieces * (at.from + at.share)) + 1);
     stage.render();
@@ -248,13 +247,15 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     player?.seek(time);
   });
   const note = () => {
-    const { results, revolutions, strongest: [force, moment] } = run;
+    const { results, revolutions, strongest: [force, moment, inJoints, twisting] } = run;
     const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
     const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in its own frame.`;
     const blind = stage.shown ? "" : "This browser has no WebGL: there is no picture, but curves.";
     const forced = force > 0 ? `Arrows are forces, the longest ${text(force, 3)} N.` : "";
     const turned = moment > 0 ? `Arcs are couples, the widest ${text(moment, 3)} N·m.` : "";
-    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, turned, larger];
+    const most = [inJoints > 0 ? `${text(inJoints, 3)} N` : "", twisting > 0 ? `${text(twisting, 3)} N·m` : ""].filter((one) => one);
+    const joined = transmitted && most.length > 0 ? `Grey is what joints and springs transmit, ${most.join(" and ")} at most.` : "";
+    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, turned, joined, larger];
     room.note.textContent = parts.join(" ").trim();
   };
   const again = (fitted = false) => {
@@ -281,6 +282,13 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     trace();
     draw(player!.time);
   });
+  if (run.strongest[2] + run.strongest[3] > 0) {
+    toggle(room, "Joint forces", "j", transmitted, (on) => {
+      transmitted = on;
+      note();
+      draw(player!.time);
+    });
+  }
   if (run.straight) {
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 1000, factor])].sort((a, b) => a - b);
     choice(room, "Deflection", factors.map((x): [string, number] => [`${text(x)} ×`, x]), factor, (x) => {
@@ -303,7 +311,7 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   again(fitted);
   player.seek(player.time);
   return {
-    kept: () => ({ ...player!.kept, factor, rotating, path, seen: stage.seen, shown: curves.shown }),
+    kept: () => ({ ...player!.kept, factor, rotating, path, transmitted, seen: stage.seen, shown: curves.shown }),
     seek: (share) => player!.seek(start + share * (last - start)),
     play: (on) => player!.play(on),
     seconds: player.seconds,

@@ -11,6 +11,8 @@ export interface Kept {
   factor?: number;
   rotating?: boolean;
   path?: boolean;
+  /** Whether it is shown what joints transmit. */
+  transmitted?: boolean;
   /** Where the picture is looked from. */
   seen?: Seen;
   mode?: number;

@@ -33,15 +33,16 @@ export interface Acting {
   values: Float64Array;
 }
 
+/** Forces and couples of loads and contacts, and those that joints and springs transmit. */
+export const KINDS = ["force", "moment", "transmitted-force", "transmitted-moment"];
+
 export interface Scene {
   times: Float64Array;
   parts: Part[];
   /** Outlines: three numbers a time and point. */
   outlines: { name: string; points: Float64Array }[];
-  /** Forces: six numbers a time, the place and the force. */
-  forces: Acting[];
-  /** Couples: six numbers a time, the place and the moment. */
-  moments: Acting[];
+  /** By KINDS: six numbers a time, the place and the force or the couple. */
+  acting: Acting[][];
   /** Whether all stays in the plane of the first two axes. */
   planar: boolean;
 }
@@ -88,8 +89,8 @@ export function scene(arrays: Arrays): Scene {
   const flat = (part: Part) =>
     part.poses.every((x, i) => ![2, 4, 5].includes(i % 7) || Math.abs(x) < 1e-12) &&
     (part.beam?.displacements.every((x, i) => i % 3 !== 2 || x === 0) ?? false);
-  const acting = (what: string) => names(`.${what}`).map((name): Acting => ({ name, values: get(`${name}.${what}`)! }));
-  return { times: get("time")!, parts, outlines, forces: acting("force"), moments: acting("moment"), planar: parts.every(flat) };
+  const acting = KINDS.map((what) => names(`.${what}`).map((name): Acting => ({ name, values: get(`${name}.${what}`)! })));
+  return { times: get("time")!, parts, outlines, acting, planar: parts.every(flat) };
 }
 
 /** Where `time` lies among ascending times. */

@@ -5,7 +5,7 @@ import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
 import type { Room } from "./room";
-import type { Part, Scene, Section } from "./scene";
+import { KINDS, type Part, type Scene, type Section } from "./scene";
 import { nice, text } from "./text";
 
 /** What stands where at one time. */
@@ -18,10 +18,8 @@ export interface Picture {
   outlines: THREE.Vector3[][];
   /** Axes of the beams of the answer it is compared with. */
   others?: THREE.Vector3[][];
-  /** Forces: where, and an arrow. */
-  forces?: [THREE.Vector3, THREE.Vector3][];
-  /** Couples: where, and their axes. */
-  moments?: [THREE.Vector3, THREE.Vector3][];
+  /** Forces and couples by their kinds: where, and an arrow or an axis. */
+  acting?: [THREE.Vector3, THREE.Vector3][][];
   /** The frame of reference: what is drawn is seen from it. */
   frame: Section;
 }
@@ -245,8 +243,7 @@ export class Stage {
   private readonly outlines: Line[];
   private readonly paths: Line[] = [];
   private readonly others: Line[] = [];
-  private readonly forces: Line[] = [];
-  private readonly moments: Line[] = [];
+  private readonly acting: Line[][] = KINDS.map(() => []);
   private readonly axes: Line[];
 
   /** Width of the picture [px], and what the scale shows: asking the page for them would lay it out anew. */
@@ -361,9 +358,10 @@ export class Stage {
     });
     picture.outlines.forEach((points, i) => this.outlines[i].place(points));
     this.draw(this.others, picture.others ?? [], () => new Line("curve1", 2.5, this.size / 40));
-    const arrows = (picture.forces ?? []).map(([at, along]) => this.pointed(at, along));
-    this.draw(this.forces, arrows, () => new Line("force", 2));
-    this.draw(this.moments, (picture.moments ?? []).map(([at, along]) => arc(at, along)), () => new Line("force", 2));
+    this.acting.forEach((lines, kind) => {
+      const drawn = (picture.acting?.[kind] ?? []).map(([at, along]) => (kind % 2 === 0 ? this.pointed(at, along) : arc(at, along)));
+      this.draw(lines, drawn, () => (kind < 2 ? new Line("force", 2) : new Line("dim", 1.5)));
+    });
   }
 
   /** Whether there is a picture at all. */
@@ -461,7 +459,7 @@ export class Stage {
   }
 
   private paint() {
-    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.forces, ...this.moments];
+    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.acting.flat()];
     for (const drawn of [...this.bodies, ...this.solids, ...lines]) drawn?.paint();
   }
 }

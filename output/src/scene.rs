@@ -400,8 +400,10 @@ mod tests {
                 place: self.p,
                 force: Vec3([0.0, x * s.q[0], 0.0]),
                 moment: Vec3([moment * s.q[0], 0.0, 0.0]),
+                transmitted: name == "joint",
             };
-            vec![force("push", 0.5, 0.0), force("push", 3.0, 0.0), force("twist", 0.0, -2.0)]
+            let joint = force("joint", 100.0, 0.0);
+            vec![force("push", 0.5, 0.0), force("push", 3.0, 0.0), force("twist", 0.0, -2.0), joint]
         }
         fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
             let root = about(self.d);
@@ -546,7 +548,7 @@ mod tests {
         let all = written(&scene);
         let names: Vec<&String> =
             all.keys().filter(|name| !name.starts_with("arm.") && *name != "time").collect();
-        assert_eq!(names, ["push'.force", "push.force", "twist.moment"]);
+        assert_eq!(names, ["joint.transmitted-force", "push'.force", "push.force", "twist.moment"]);
         let times = |a: f64, b: f64| vec![1.0, 2.0, 3.0, 0.0, a, 0.0, 1.0, 2.0, 3.0, 0.0, b, 0.0];
         assert_eq!(all["push.force"], (vec![2, 6], times(0.75, 1.5)));
         assert_eq!(all["push'.force"], (vec![2, 6], times(0.125, 0.25)));

@@ -1,12 +1,21 @@
 //! Forces and couples at points of the beam, as they are drawn.
 
 use super::coupling::Coupling;
+use super::hub::Drive;
 use super::load::{Axes, Force};
 use super::system::HubBeam;
 use crate::linalg::{Mat3, Vec3};
 use crate::system::{Frame, Observed, PointForce, State};
 
 impl<C: Coupling> HubBeam<C> {
+    /// The torque by which the hub is driven.
+    pub(super) fn driving_torque(&mut self, s: &State) -> PointForce {
+        let contact =
+            if matches!(self.hub().drive, Drive::Prescribed(_)) { self.contact_torque } else { 0.0 };
+        let moment = Vec3([0.0, 0.0, self.torque(s) - contact]);
+        PointForce { name: "hub".to_owned(), moment, transmitted: true, ..PointForce::default() }
+    }
+
     /// The loads at points, by their number among these.
     pub(super) fn loads_at_points(&mut self, s: &State) -> Vec<PointForce> {
         if self.loads.points().is_empty() {
@@ -29,7 +38,8 @@ impl<C: Coupling> HubBeam<C> {
             let [x, y] = force.force;
             let force = axes * (factor * Vec3([x, y, 0.0]));
             let moment = Vec3([0.0, 0.0, factor * couple]);
-            PointForce { name: format!("load{}", i + 1), place: frame.position, force, moment }
+            let name = format!("load{}", i + 1);
+            PointForce { name, place: frame.position, force, moment, ..PointForce::default() }
         };
         self.loads.points().iter().zip(&frames).enumerate().map(drawn).collect()
     }

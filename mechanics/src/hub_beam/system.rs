@@ -465,7 +465,9 @@ impl<C: Coupling> Observed for HubBeam<C> {
     }
 
     fn point_forces(&mut self, s: &State) -> Vec<PointForce> {
-        self.loads_at_points(s)
+        let mut all = self.loads_at_points(s);
+        all.push(self.driving_torque(s));
+        all
     }
 
     fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {

@@ -171,14 +171,17 @@ impl Observed for Multibody {
 
     fn point_forces(&mut self, s: &State) -> Vec<PointForce> {
         self.place(s);
-        let (mut all, mut work) = (Vec::new(), Interaction::new());
-        for (k, load) in self.constants.model.loads.iter().enumerate() {
-            work.clear(false);
-            let at = self.load_end(k);
-            load.interact(at, (s.time(), self.part), &mut work);
+        let model = &self.constants.model;
+        let joints = model.joints.iter().map(|joint| &joint.name);
+        let mut names = joints
+            .chain(model.springs.iter().map(|spring| &spring.name))
+            .chain(model.loads.iter().map(|load| &load.name));
+        let mut all = Vec::new();
+        self.interactions(s, false, |from, at, work| {
+            let name = names.next().cloned().unwrap_or_default();
             let [.., force, moment] = work.wrench;
-            all.push(PointForce { name: load.name.clone(), place: at.position, force, moment });
-        }
+            all.push(PointForce { name, place: at.position, force, moment, transmitted: from.is_some() });
+        });
         all
     }
 

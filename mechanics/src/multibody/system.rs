@@ -233,7 +233,7 @@ impl Multibody {
     }
 
     /// Calls `visit` for every joint, spring and load with its markers and its wrench.
-    fn interactions(
+    pub(super) fn interactions(
         &self,
         s: &State,
         differentiate: bool,

@@ -144,10 +144,10 @@ pub struct ContactSample {
     pub lost: f64,
 }
 
-/// A force and a couple at a point, of a load or a contact.
+/// A force and a couple at a point, of a load, a contact, a joint or a spring.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PointForce {
-    /// Name of the load or the contact.
+    /// Name of the load, the contact, the joint or the spring.
     pub name: String,
     /// Where it acts, in the inertial frame \[m\].
     pub place: Vec3,
@@ -155,6 +155,8 @@ pub struct PointForce {
     pub force: Vec3,
     /// The couple on it [N·m].
     pub moment: Vec3,
+    /// Whether it acts between two parts, or a part and the ground: what a joint or a spring transmits to the second.
+    pub transmitted: bool,
 }
 
 /// What a model shows of itself. Nothing here changes what a run computes: work memory at most is written.
@@ -203,7 +205,7 @@ pub trait Observed: Dynamics {
         out.clear();
     }
 
-    /// The forces and couples of loads and contacts at points, for pictures. Their number and order do not depend on the state. Loads that
+    /// The forces and couples of loads, contacts, joints and springs, for pictures. Their number and order do not depend on the state. Loads that
     /// follow from the laws of a program are not among them, for such a law is asked once.
     fn point_forces(&mut self, _s: &State) -> Vec<PointForce> {
         Vec::new()

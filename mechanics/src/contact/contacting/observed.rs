@@ -104,7 +104,8 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             let axes = self.inner.axes(placed.contact.point, s);
             let touching = near.motion.position - near.motion.radius * near.surface.normal;
             let name = placed.contact.name.clone();
-            all.push(PointForce { name, place: axes * touching, force: axes * force, moment: Vec3::ZERO });
+            let (place, force) = (axes * touching, axes * force);
+            all.push(PointForce { name, place, force, ..PointForce::default() });
         }
         all
     }
