@@ -5,6 +5,7 @@
 
 use super::diagram::{Branch, Crossing, Point};
 use super::polynomial::Polynomial;
+use super::resonance::rests;
 use super::solved::Solved;
 use super::speeds::Speeds;
 use num_complex::Complex64;
@@ -27,7 +28,8 @@ pub(super) fn crossings(
             for (i, (w, at)) in b.points.windows(2).zip(solved).enumerate() {
                 let (a, c) = (above(&w[0], k), above(&w[1], k));
                 // At rest the lines all begin: a rigid motion crosses none of them there.
-                if (a > 0.0) != (c > 0.0) && w[0].mode.frequency().max(w[1].mode.frequency()) > 0.0 {
+                let moves = w[0].mode.frequency().max(w[1].mode.frequency()) > 0.0;
+                if (a > 0.0) != (c > 0.0) && moves && !rests(&w[0]) {
                     let speed = located(system, at, &b.points, i, k)
                         .unwrap_or_else(|| w[0].speed + (w[1].speed - w[0].speed) * a / (a - c));
                     out.push(Crossing { branch, revolutions: k, speed });

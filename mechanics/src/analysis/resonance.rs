@@ -1,7 +1,8 @@
 //! Speeds at which a frequency is near a multiple of the speed.
 
-use super::diagram::Campbell;
+use super::diagram::{Campbell, Point};
 use super::polynomial::Polynomial;
+use crate::linalg::eigen::UNCERTAIN;
 
 /// Relative distance of two speeds that count as one: the slope between nearer ones would be rounding.
 const ONE: f64 = 1e-6;
@@ -30,7 +31,8 @@ pub fn resonances(campbell: &Campbell, revolutions: u32, margin: f64) -> Vec<Res
         for k in 1..=revolutions {
             let crossings = campbell.crossings.iter().filter(|c| (c.branch, c.revolutions) == (branch, k));
             let crossings = crossings.map(|c| [c.speed, square(f64::from(k) * c.speed)]);
-            let points = b.points.iter().map(|p| [p.speed, square(p.mode.frequency())]);
+            let points =
+                b.points.iter().map(|p| [p.speed, if rests(p) { 0.0 } else { square(p.mode.frequency()) }]);
             let mut points: Vec<[f64; 2]> = points.chain(crossings).collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
             points.dedup_by(|b, a| b[0] - a[0] <= ONE * b[0]);
@@ -49,6 +51,11 @@ pub fn resonances(campbell: &Campbell, revolutions: u32, margin: f64) -> Vec<Res
         }
     }
     out
+}
+
+/// Whether a point is at rest, and its frequency zero but for rounding: there all lines begin.
+pub(super) fn rests(point: &Point) -> bool {
+    point.speed == 0.0 && !(point.mode.rounding < UNCERTAIN)
 }
 
 fn square(x: f64) -> f64 {
@@ -72,7 +79,8 @@ fn near(points: &[[f64; 2]], i: usize, k: f64, margin: f64) -> Option<(f64, f64)
                 Polynomial::through(&values).zero(points[i - 1][0], points[i][0])
             }
         };
-        match (inside(points[i - 1]) >= 0.0, inside(points[i]) >= 0.0) {
+        let before = if points[i - 1] == [0.0; 2] { points[i] } else { points[i - 1] };
+        match (inside(before) >= 0.0, inside(points[i]) >= 0.0) {
             (true, true) => {}
             (true, false) => to = to.min(zero()),
             (false, true) => from = from.max(zero()),
@@ -135,6 +143,19 @@ mod tests {
         let end = |k: f64| (9.0 / (k * k - 1.2)).sqrt();
         let second = found.iter().find(|r| r.revolutions == 2).unwrap();
         assert!((second.from - end(2.1)).abs() < 1e-12 && (second.to - end(1.9)).abs() < 1e-12, "{second:?}");
+    }
+
+    #[test]
+    fn a_rigid_motion_is_near_a_line_everywhere_or_nowhere() {
+        let hinged = |frequency: f64| {
+            let mut diagram = diagram(|speed| frequency * speed);
+            let first = &mut diagram.branches[0].points[0].mode;
+            (first.eigenvalue.im, first.rounding) = (1e-6, 1.0);
+            resonances(&diagram, 4, 0.05)
+        };
+        assert_eq!(hinged(1.0724), []);
+        let found = hinged(1.04);
+        assert!(found.len() == 1 && (found[0].from, found[0].to) == (0.0, 10.0), "{found:?}");
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
-use crate::linalg::Vec3;
 use crate::system::{
     Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode,
     Observed, PointForce, Power, Role, Sink, Slender, State,
