@@ -17,7 +17,8 @@
 //! (M + εK) v = M v⁻, and it is stopped without an impulse.
 
 use super::augmented::Augmented;
-use super::cone::{FEW, RowLaw, Unresolved, solve};
+use super::cone::{FEW, RowLaw, Unresolved};
+use super::few::solve;
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 
