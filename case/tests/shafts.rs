@@ -271,7 +271,9 @@ fn diagram(reading: &Reading, speeds: usize) -> flexion_case::Diagram {
 /// of a program of its own by automatic differentiation of the energy, in 400 steps of the speed.
 #[test]
 fn the_equilibrium_followed_from_rest_does_not_depend_on_the_speeds() {
-    for (distance, known) in [(0.03, None), (0.1, Some([2.805, 10.051, 25.39])), (0.3, None), (1e-5, None)] {
+    for (distance, known) in
+        [(0.03, None), (0.1, Some([2.805, 10.051, 25.39])), (0.3, None), (1e-5, None), (1e-8, None)]
+    {
         let reading = beside(distance);
         let (expected, _) = modes(&reading, 8.0, 3);
         let expected: Vec<f64> = if distance < 0.01 { Vec::new() } else { expected };
@@ -297,7 +299,7 @@ fn the_equilibrium_followed_from_rest_does_not_depend_on_the_speeds() {
 #[test]
 fn a_straight_shaft_has_one_critical_speed_and_the_ranges_of_its_whirls() {
     let first = 3.516015;
-    for distance in [0.0, 1e-13, 1e-10] {
+    for distance in [0.0, 1e-13, 1e-11] {
         for speeds in [2, 5, 17] {
             let found = diagram(&beside(distance), speeds);
             let [critical] = found.campbell.criticals.as_slice() else {

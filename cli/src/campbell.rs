@@ -137,7 +137,8 @@ fn described(found: &Diagram) -> String {
     if !diagram.criticals.is_empty() {
         let speeds: Vec<String> = diagram.criticals.iter().map(|c| units.speed.text(c.speed)).collect();
         out.push_str(&format!(
-            "\ncritical speeds, at which a forward whirl has the speed of rotation and unbalance is in resonance\n  {}\n",
+            "\ncritical speeds, at which a motion loses its stiffness in the rotating frame: a forward whirl with the speed of rotation, which unbalance excites, \
+             or a divergence\n  {}\n",
             speeds.join(", ")
         ));
     }

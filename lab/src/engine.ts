@@ -206,6 +206,13 @@ export function bytes(base64: string): Uint8Array<ArrayBuffer> {
   return Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
 }
 
+/** Bytes as text in base64. */
+export function base64(content: Uint8Array): string {
+  let binary = "";
+  for (let i = 0; i < content.length; i += 8192) binary += String.fromCharCode(...content.subarray(i, i + 8192));
+  return btoa(binary);
+}
+
 declare global {
   interface Window {
     /** The engine, if the page has begun to fetch it. */

@@ -7,7 +7,7 @@ import { Answer, type Pin } from "./answer";
 import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
 import { campbell } from "./diagram";
-import { bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
+import { base64, bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
 import { Form, quantity, written } from "./form";
 import * as gallery from "./gallery";
 import { Growing } from "./growing";
@@ -376,12 +376,6 @@ function present() {
   element<HTMLInputElement>("rotation").value = state.speed ?? "";
   element("mosts").hidden = state.kind !== "campbell";
   element<HTMLInputElement>("most").value = state.most ?? "";
-}
-
-function base64(content: Uint8Array): string {
-  let binary = "";
-  for (let i = 0; i < content.length; i += 8192) binary += String.fromCharCode(...content.subarray(i, i + 8192));
-  return btoa(binary);
 }
 
 // Controls.

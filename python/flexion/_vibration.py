@@ -227,7 +227,7 @@ class Diagram(Shown, Sequence[Branch]):
 
     @property
     def criticals(self) -> tuple[float, ...]:
-        """Critical speeds, at which a forward whirl has the speed of rotation [rad/s]."""
+        """Critical speeds, at which a motion has no stiffness in the rotating frame, as a forward whirl with its speed [rad/s]."""
         return tuple(self._core.criticals())
 
     def to_pandas(self) -> pandas.DataFrame:

@@ -120,6 +120,8 @@ const MOST_ROWS: usize = 4;
 /// Poisson's ratio of a shape, if it is left out: that of most metals.
 const POISSON_RATIO: f64 = 0.3;
 /// Distance of a centre of mass from the axis, over the length, that is rounding.
+/// Product of inertia about the centre of mass over the polar moment, from which on it is said that it is left out.
+const TILTED: f64 = 1e-3;
 const CENTRED: f64 = 1e-9;
 
 impl Beam {
@@ -211,6 +213,12 @@ impl Beam {
         }
         if offset > CENTRED * deck.length {
             said.push(format!("the centres of mass, up to {offset:.4} m beside the axis, are put on it"));
+        }
+        let tilted = |(_, of): &(f64, Matrices)| {
+            of.product_of_inertia().abs() > TILTED * (of.mass[4][4] + of.mass[5][5])
+        };
+        if deck.table.rows().iter().any(tilted) {
+            said.push("the products of inertia of its sections are left out".to_owned());
         }
         let needed = if deck.silent.shear { "give the deck its stiffness in shear and " } else { "" };
         (!said.is_empty()).then(|| {

@@ -169,11 +169,12 @@ fn refine(
         let smallest = (next.speed - before.speed) * 0.5_f64.powi(HALVINGS as i32);
         // Speeds still to be passed, the nearest last.
         let (mut ahead, mut expected) = (vec![next], 0);
-        // Degenerate modes are like those before; at the first speed, like those behind.
-        if let ([first], Some(to)) = (out.as_mut_slice(), ahead.last()) {
-            align(to, first);
-        }
-        while let (Some(from), Some(to)) = (out.last(), ahead.last_mut()) {
+        loop {
+            // Degenerate modes are like those before; at the first speed, like those behind.
+            if let ([first], Some(to)) = (out.as_mut_slice(), ahead.last()) {
+                align(to, first);
+            }
+            let (Some(from), Some(to)) = (out.last(), ahead.last_mut()) else { break };
             align(from, to);
             let matches = match_shapes(from, to);
             let interval = to.speed - from.speed;

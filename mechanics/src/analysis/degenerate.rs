@@ -14,6 +14,9 @@ const EQUAL: f64 = 1e-7;
 /// Least part of a mode within the space that it is to continue in.
 const WITHIN: f64 = 0.5;
 
+/// Square of the sine of the angle below which two projections count as one.
+const PARALLEL: f64 = 1e-4;
+
 /// Whether two eigenvalues count as one.
 pub(super) fn are_equal(a: Complex64, b: Complex64) -> bool {
     (b - a).norm() <= EQUAL * b.norm()
@@ -54,6 +57,9 @@ fn project(like: &Solved, of: &mut Solved, equal: Range<usize>) {
         return;
     }
     best.sort_unstable();
+    if best.iter().enumerate().any(|(k, j)| best[..k].iter().any(|i| are_parallel(&all[*i], &all[*j]))) {
+        return;
+    }
     let turned: Vec<_> = best.iter().map(|j| combined(of, &all[*j].weights)).collect();
     for (k, turned) in equal.clone().zip(turned) {
         put(of, k, turned);
@@ -66,6 +72,13 @@ struct Projection {
     weights: Vec<(usize, Complex64)>,
     /// Part of the mode that is within, from 0 to 1.
     part: f64,
+}
+
+/// Whether two modes leave the same, as both whirls beyond a critical speed leave of those at rest.
+fn are_parallel(a: &Projection, b: &Projection) -> bool {
+    let size = |x: &Projection| x.weights.iter().map(|(_, w)| w.norm_sqr()).sum::<f64>();
+    let both: Complex64 = a.weights.iter().zip(&b.weights).map(|((_, a), (_, b))| a.conj() * b).sum();
+    both.norm_sqr() > (1.0 - PARALLEL) * size(a) * size(b)
 }
 
 /// Mode `j` of `like` in the inner product of M.

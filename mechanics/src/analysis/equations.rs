@@ -40,7 +40,6 @@ const UNBALANCED: f64 = 1e-2;
 /// motions are held: the held part of an increment shrinks slowly however small it is.
 const SMALL: [f64; 2] = [1e-9, 1e-13];
 
-const FAR: &str = "the equilibrium moves too far at once";
 const IN_TURN: &str = "contacts open and close in turn";
 
 /// Why an iteration has ended.
@@ -72,8 +71,8 @@ pub(super) struct Equations<'a> {
     pub iterations: u32,
     /// Weight σ of the masses in J, K + σM in the place of K: it holds motions that have no stiffness.
     pub hold: f64,
-    /// Largest size of an increment over that of the one before, at a part of the loads.
-    pub contraction: f64,
+    /// Iterations allowed at a level.
+    pub allowed: u32,
     scales: Vec<f64>,
     start: Vec<f64>,
     tangent: Matrix,
@@ -97,7 +96,7 @@ impl<'a> Equations<'a> {
             system,
             iterations: 0,
             hold: 0.0,
-            contraction: f64::INFINITY,
+            allowed: ITERATIONS[0],
             scales,
             start,
             tangent,
@@ -246,8 +245,8 @@ impl<'a> Equations<'a> {
         part: &mut f64,
         path: Option<&Direction>,
     ) -> Result<u32, Failure> {
-        let allowed = ITERATIONS[usize::from(path.is_some())];
-        let (mut least, mut last, mut stalled) = (f64::INFINITY, f64::INFINITY, 0);
+        let allowed = if path.is_some() { ITERATIONS[1] } else { self.allowed };
+        let (mut least, mut stalled) = (f64::INFINITY, 0);
         for iteration in 0..=allowed {
             self.residual(state, *part);
             if self.r.iter().all(|r| *r == 0.0) {
@@ -291,10 +290,6 @@ impl<'a> Equations<'a> {
                     worst: 0,
                 });
             }
-            if path.is_none() && size > ROUNDING && size > self.contraction * last {
-                return Err(Failure { what: FAR.to_owned(), singular: false, worst });
-            }
-            last = size;
             if !(size < 1e3) || iteration == allowed {
                 let what = if ended {
                     format!(

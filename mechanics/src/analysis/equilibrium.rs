@@ -19,9 +19,8 @@ use std::ops::ControlFlow;
 
 /// Smallest part of the load by which continuation goes on.
 const SMALLEST: f64 = 1e-6;
-/// Largest ratio of an increment to the one before where an equilibrium is followed: it is 2h for Newton's method from a place at which the Kantorovich
-/// theorem, h ≤ 1/2, knows of one equilibrium nearby.
-const CONTRACTION: f64 = 0.25;
+/// Iterations to an equilibrium nearby.
+const NEARBY: u32 = 10;
 /// Weights of the masses that hold motions without stiffness, over the square of the highest frequency, one after the other: rounding
 /// moves them the less, and soft motions converge the slower.
 const HOLDS: [f64; 3] = [1e-12, 1e-10, 1e-8];
@@ -71,42 +70,22 @@ pub fn equilibrium(system: &mut dyn System, state: &mut State) -> Result<Effort,
     direct(system, state, &mut |_| ControlFlow::Continue(()))
 }
 
-/// The equilibrium under all of the loads to which Newton's method leads from one nearby: its increments shrink fourfold, or it has
-/// failed.
-pub(super) fn nearby(
-    system: &mut dyn System,
-    state: &mut State,
-    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Effort, NoEquilibrium> {
-    find(system, state, (1.0, CONTRACTION), watch)
-}
-
 /// The same; `watch` is shown the part of the loads of every level that is tried, and ends the search by `Break`.
 pub(super) fn direct(
     system: &mut dyn System,
     state: &mut State,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Effort, NoEquilibrium> {
-    find(system, state, (SMALLEST, f64::INFINITY), watch)
-}
-
-/// The same with the smallest part of the loads by which continuation goes on, and the largest ratio of two increments in a row.
-fn find(
-    system: &mut dyn System,
-    state: &mut State,
-    care: (f64, f64),
-    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Effort, NoEquilibrium> {
     let start = state.clone();
     if !system.contacts(&start).is_empty() && is_neutral(system, &start) {
         return come_to_rest(system, state, watch);
     }
-    let (mut result, singular) = follow_loads(system, state, 0.0, care, watch);
+    let (mut result, singular) = follow_loads(system, state, 0.0, watch);
     if result.is_err() && (singular || is_neutral(system, &start)) {
         let highest = highest(system, &start);
         for hold in HOLDS.map(|part| part * highest).into_iter().filter(|hold| *hold > 0.0) {
             let mut held = start.clone();
-            if let (Ok(effort), _) = follow_loads(system, &mut held, hold, care, watch)
+            if let (Ok(effort), _) = follow_loads(system, &mut held, hold, watch)
                 && release(system, &mut held).is_ok()
             {
                 state.copy_from(&held);
@@ -116,6 +95,33 @@ fn find(
         }
     }
     result
+}
+
+/// The equilibrium under all of the loads to which Newton's method leads from one nearby, in few iterations.
+pub(super) fn nearby(
+    system: &mut dyn System,
+    state: &mut State,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Effort, NoEquilibrium> {
+    if watch(1.0).is_break() {
+        return Err(stopped(system, state.t, 0.0));
+    }
+    let start = state.clone();
+    let mut equations = Equations::new(system, state);
+    equations.allowed = NEARBY;
+    apply(equations.system, 1.0);
+    joints::balance(equations.system, state);
+    match equations.solve(state, &mut 1.0, None) {
+        Ok(iterations) => Ok(Effort { levels: 1, iterations }),
+        Err(_) if is_neutral(equations.system, &start) => {
+            state.copy_from(&start);
+            direct(system, state, watch)
+        }
+        Err(Failure { what, worst, .. }) => {
+            let worst = equations.system.unknown(worst);
+            Err(NoEquilibrium { time: state.t, reached: 0.0, what, worst })
+        }
+    }
 }
 
 /// Solves again without the masses that held an equilibrium, if all of its motions have a stiffness.
@@ -165,11 +171,10 @@ fn follow_loads(
     system: &mut dyn System,
     state: &mut State,
     hold: f64,
-    (smallest, contraction): (f64, f64),
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> (Result<Effort, NoEquilibrium>, bool) {
     let mut equations = Equations::new(system, state);
-    (equations.hold, equations.contraction) = (hold, contraction);
+    equations.hold = hold;
     let mut singular = false;
     let mut good = state.clone();
     let (mut reached, mut part): (f64, f64) = (0.0, 1.0);
@@ -193,7 +198,7 @@ fn follow_loads(
                 singular |= failure.singular;
                 state.copy_from(&good);
                 part = 0.25 * (level - reached);
-                if part < smallest {
+                if part < SMALLEST {
                     apply(equations.system, 1.0);
                     let worst = equations.system.unknown(failure.worst);
                     let none = NoEquilibrium { time: state.t, reached, what: failure.what, worst };

@@ -1,15 +1,23 @@
 //! Steady rotation: the equilibrium in the frame of a hub that rotates at a constant speed.
 
+use super::equations::largest;
 use super::equilibrium::{Effort, NoEquilibrium, direct, nearby};
 use super::stability::{Stability, negative_parts, stability};
 use crate::linalg::eigen::EigenError;
 use crate::system::{Limit, NotSet, Parameter, State, System};
 use std::ops::ControlFlow;
 
-/// Smallest part of the way to a speed by which continuation goes on.
-const SMALLEST: f64 = 1e-7;
+/// Step, over the speed, below which an equilibrium ends.
+const SMALLEST: f64 = 1e-8;
+/// Least speed, over that asked for, by which steps are measured.
+const LEAST: f64 = 1e-4;
 /// Step, over the speed, across which the number of negative directions of the stiffness may change.
 const CRITICAL: f64 = 1e-5;
+/// Steps that may be too long.
+const TRIES: u32 = 200;
+/// Motion in a step, over the size of the system, and in one across which that number changes.
+const FAR: f64 = 0.1;
+const BESIDE: f64 = 3e-4;
 /// Relative accuracy of the speed at which an equilibrium ends.
 const ACCURACY: f64 = 1e-6;
 
@@ -28,8 +36,10 @@ pub enum NoRotation {
     DoesNotTurn,
     /// There is no equilibrium.
     #[error(
-        "there is no steady rotation at {} rad/s: followed up to {reached:.6} rad/s, and beyond {source}{}",
+        "there is no steady rotation at {} rad/s: followed up to {reached:.6} rad/s, where it ends or jumps; beyond, {} (largest in the {}){}",
         short(*.asked),
+        .source.what,
+        .source.worst,
         because(.why)
     )]
     Lost {
@@ -93,12 +103,12 @@ impl NoRotation {
 /// for `from` = 0 without loads), to that at `to`. On return the system rotates steadily at `to`
 /// with its hub held, and v = a = 0.
 ///
-/// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω, under all of the loads; where they have none at `from`, they grow at the first speed
-/// that allows one. A step of the speed is divided until the increments of Newton's method shrink fourfold, and until K has as many
-/// negative directions behind it as before: beyond a critical speed another equilibrium lies nearby, on the other side of the axis. A step
-/// of 1e-5 of the speed passes a critical one, so that a shaft that lies on the axis, but for 1e-9 of its length, stays straight; from 1e-7 on
-/// it bends outwards, and has no critical speed. `watch` is called for every equilibrium
-/// that is tried on the way, and ends the search by `false`.
+/// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω, under all of the loads; where they have none at `from` = 0, they grow at the first speed
+/// that allows one. A step of the speed is divided until it moves the system by a tenth of its size at most and K has as many
+/// negative directions behind it as before; it begins where the last step leads. Beyond a critical speed another equilibrium lies nearby, on the other side of the axis. A step
+/// of 1e-5 of the speed that moves the system by 3e-4 of its size at most passes a critical one, so that a shaft that lies on the axis, but
+/// for 1e-10 of its length, stays straight; from 1e-9 on it bends outwards, and has no critical speed. `watch` is called for every
+/// equilibrium that is tried on the way, and ends the search by `false`.
 ///
 /// # Errors
 /// [`NoRotation`] when the equilibrium ends on the way, or the search is ended.
@@ -113,60 +123,85 @@ pub fn rotate(
     let mut goes_on = true;
     let mut good = state.clone();
     let mut effort = Effort::default();
-    let speed = |share: f64| if share >= 1.0 { to } else { from + share * (to - from) };
     // Negative directions of K at the last equilibrium.
     let mut before = None;
-    let (mut reached, mut part) = (0.0, 0.0);
+    if from != 0.0 && system.set(Parameter::Speed, from).is_ok() {
+        before = Some(negative_parts(system, state));
+    }
+    let mut tries = 0;
+    // The step that led there, and by which increment of the configuration.
+    let mut secant: Option<(f64, Vec<f64>)> = None;
+    let mut reached = from;
+    let mut step = if before.is_some() { to - from } else { 0.0 };
     loop {
-        let next = f64::min(reached + part, 1.0);
-        let set = match system.set(Parameter::Speed, speed(next)) {
+        let next = if step.abs() < (to - reached).abs() { reached + step } else { to };
+        let none = |what: String| {
+            let worst = "steady state".to_owned();
+            NoEquilibrium { time: good.t, reached: 0.0, what, worst }
+        };
+        let set = match system.set(Parameter::Speed, next) {
             Ok(()) => Ok(()),
             Err(NotSet::Unknown(_)) => return Err(NoRotation::DoesNotTurn),
-            Err(NotSet::Lost(what)) => {
-                let worst = "steady state".to_owned();
-                Err(NoEquilibrium { time: state.t, reached: 0.0, what, worst })
-            }
+            Err(NotSet::Lost(what)) => Err(none(what)),
         };
         let mut level = |_| {
             goes_on = goes_on && watch();
             if goes_on { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         };
+        let unit = reached.abs().max(next.abs()).max(LEAST * to.abs());
         let found = set.and_then(|()| match before {
             None => direct(system, state, &mut level),
-            Some(_) => nearby(system, state, &mut level),
+            Some(_) => {
+                if let Some((step, moved)) = &secant {
+                    let part = (next - reached) / step;
+                    let predicted: Vec<f64> = moved.iter().map(|d| part * d).collect();
+                    system.retract(&good.q, &predicted, &mut state.q);
+                }
+                nearby(system, state, &mut level)
+            }
         });
-        let source = match found {
-            Ok(spent) => {
+        let found = found.and_then(|spent| {
+            let now = negative_parts(system, state);
+            let is_critical = (next - reached).abs() <= CRITICAL * unit;
+            let allowed = match before {
+                None => f64::INFINITY,
+                Some(before) if before == now => FAR,
+                Some(_) if is_critical => BESIDE,
+                Some(_) => 0.0,
+            };
+            let mut moved = vec![0.0; state.v.len()];
+            system.difference(&good.q, &state.q, &mut moved);
+            if largest(&moved, system.scales()).1 > allowed {
+                return Err(none("no equilibrium is near the last one".to_owned()));
+            }
+            Ok((spent, now, moved))
+        });
+        match found {
+            Ok((spent, now, moved)) => {
                 effort.levels += spent.levels;
                 effort.iterations += spent.iterations;
-                let now = Some(negative_parts(system, state));
-                let (first, last) = (speed(reached), speed(next));
-                let wide = (last - first).abs() > CRITICAL * first.abs().max(last.abs())
-                    && next - reached > SMALLEST;
-                if before.is_none() || before == now || !wide {
-                    good.copy_from(state);
-                    before = now;
-                    reached = next;
-                    part = if part > 0.0 { 2.0 * part } else { 1.0 };
-                    if last == to {
-                        return Ok(effort);
-                    }
-                    continue;
+                good.copy_from(state);
+                secant = before.filter(|_| next != reached).map(|_| (next - reached, moved));
+                (before, reached) = (Some(now), next);
+                if next == to {
+                    return Ok(effort);
                 }
-                None
+                step = if step == 0.0 { to - from } else { 2.0 * step };
             }
-            Err(source) => Some(source),
-        };
-        state.copy_from(&good);
-        part = if part > 0.0 { 0.25 * (next - reached) } else { 1.0 };
-        if let Some(source) = source.filter(|_| part < SMALLEST || !goes_on) {
-            let reached = speed(reached);
-            let why = if goes_on { system.explain(state) } else { None };
-            let _ = system.set(Parameter::Speed, reached);
-            return Err(match goes_on {
-                true => NoRotation::Lost { asked: to, reached, source, why: why.map(Box::new) },
-                false => NoRotation::Stopped { asked: to, reached },
-            });
+            Err(source) => {
+                state.copy_from(&good);
+                // Without an equilibrium at rest the first speed is tried.
+                step = if next == reached { to - from } else { 0.25 * (next - reached) };
+                tries += 1;
+                if step.abs() < SMALLEST * unit || step == 0.0 || tries > TRIES || !goes_on {
+                    let why = if goes_on { system.explain(state) } else { None };
+                    let _ = system.set(Parameter::Speed, reached);
+                    return Err(match goes_on {
+                        true => NoRotation::Lost { asked: to, reached, source, why: why.map(Box::new) },
+                        false => NoRotation::Stopped { asked: to, reached },
+                    });
+                }
+            }
         }
     }
 }

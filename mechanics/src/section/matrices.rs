@@ -102,6 +102,12 @@ impl Matrices {
         [-m[0][5] / m[0][0], m[0][4] / m[0][0]]
     }
 
+    /// Product of inertia −∫ρ y z dA about the axes through the centre of mass \[kg m\].
+    pub fn product_of_inertia(&self) -> f64 {
+        let [y, z] = self.mass_centre();
+        self.mass[4][5] + self.mass[0][0] * y * z
+    }
+
     /// Moments of inertia about the three axes, through the centre of mass [kg·m].
     pub fn central_inertia(&self) -> [f64; 3] {
         let (m, [y, z]) = (&self.mass, self.mass_centre());
