@@ -84,9 +84,12 @@ pub struct Augmented {
     start: Vec<f64>,
     force: Vec<f64>,
     image: Vec<f64>,
-    /// y, the projection by which Λ is judged, and the contact of each normal row.
+    /// y, and the projection by which Λ is judged.
     motion: Vec<f64>,
     projection: Vec<f64>,
+    /// G δ of a step.
+    turn: Vec<f64>,
+    /// The contact of each normal row.
     of_normal: Vec<usize>,
     /// ρ of the attempt in units of the stiffness.
     ratio: f64,
@@ -99,6 +102,37 @@ pub struct Augmented {
 }
 
 impl Augmented {
+    /// Memory for so many rows and a dense A of this order.
+    pub(super) fn with_room(rows: usize, order: usize) -> Augmented {
+        let list = || Vec::with_capacity(rows);
+        let of_order = || Vec::with_capacity(order);
+        Augmented {
+            groups: Vec::with_capacity(rows),
+            laws: Vec::with_capacity(rows),
+            entries: Vec::with_capacity(rows * order),
+            begins: Vec::with_capacity(rows + 1),
+            stiffness: Vec::with_capacity(rows),
+            states: Vec::with_capacity(rows),
+            before: Vec::with_capacity(rows),
+            rates: list(),
+            rates_before: list(),
+            centre: list(),
+            start: list(),
+            force: of_order(),
+            image: of_order(),
+            motion: of_order(),
+            turn: list(),
+            projection: list(),
+            of_normal: Vec::with_capacity(rows),
+            ..Augmented::default()
+        }
+    }
+
+    /// Keeps A, of whatever order the one before was, and makes room for the matrix of Newton's method.
+    pub(super) fn keep_new(&mut self, matrix: &Matrix) {
+        (self.plain, self.work) = (Some(matrix.clone()), Some(matrix.clone()));
+    }
+
     /// Keeps A before it is factored.
     pub fn keep(&mut self, matrix: &Matrix) {
         match &mut self.plain {
@@ -422,8 +456,10 @@ impl Augmented {
         let first = dot(&self.force, &self.image);
         plain.multiply(&self.force, &mut self.image);
         let second = dot(&self.force, &self.image);
-        let turn: Vec<f64> =
-            (0..self.laws.len()).map(|i| self.row(i).iter().map(|(j, g)| g * self.force[*j]).sum()).collect();
+        let mut turn = std::mem::take(&mut self.turn);
+        turn.clear();
+        let along = |i: usize| self.row(i).iter().map(|(j, g)| g * self.force[*j]).sum::<f64>();
+        turn.extend((0..self.laws.len()).map(along));
         let mut projection = std::mem::take(&mut self.projection);
         projection.clear();
         projection.extend_from_slice(&self.start);
@@ -447,7 +483,7 @@ impl Augmented {
                 bounds[usize::from(slope(middle) > 0.0)] = middle;
             }
         }
-        self.projection = projection;
+        (self.projection, self.turn) = (projection, turn);
         bounds[1]
     }
 }

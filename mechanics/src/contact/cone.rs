@@ -70,20 +70,19 @@ const LOOK: usize = 64;
 /// Change by multipliers that make no motion, over the largest: what of b no multipliers can take away.
 const BESIDE: f64 = 1e-5;
 
-/// Solves for Λ, in place and from the values it has, by so many sweeps at most: `w` holds W by rows. Gives the number of sweeps.
+/// Solves for Λ, in place and from the values it has, by so many sweeps at most: `w` holds W by rows, `last` is memory. Gives the number of sweeps.
 ///
 /// # Errors
 /// [`Unresolved`].
 pub(super) fn relax(
     laws: &[RowLaw],
-    w: &[f64],
-    b: &[f64],
+    (w, b): (&[f64], &[f64]),
     lambda: &mut [f64],
     allowed: usize,
+    last: &mut Vec<f64>,
 ) -> Result<usize, Unresolved> {
     let m = laws.len();
     let mut change = 0.0;
-    let mut last = Vec::new();
     for sweep in 1..=allowed {
         let (mut moved, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
         let look = sweep % LOOK == 0;
@@ -136,7 +135,7 @@ pub(super) fn relax(
         if change <= SETTLED || moved <= f64::MIN_POSITIVE {
             return Ok(sweep);
         }
-        if look && change <= BESIDE && is_still(w, lambda, &last, largest) {
+        if look && change <= BESIDE && is_still(w, lambda, last, largest) {
             return Ok(sweep);
         }
     }
@@ -160,7 +159,7 @@ mod tests {
     use super::*;
 
     fn solve(laws: &[RowLaw], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<usize, Unresolved> {
-        relax(laws, w, b, lambda, SWEEPS)
+        relax(laws, (w, b), lambda, SWEEPS, &mut Vec::new())
     }
 
     /// A mass on a wall and on another mass: W of two contacts in series, both closing, and one pulling.

@@ -11,7 +11,7 @@
 //! the problem is that of [`Augmented`] with A = 1 and G = L, which has one answer, the one of least norm. It is solved so where r < m, and where relaxation does not end soon.
 
 use super::augmented::Augmented;
-use super::cone::{self, RowLaw, Unresolved};
+use super::cone::{self, FEW, RowLaw, Unresolved};
 use crate::linalg::{Matrix, Structure};
 
 /// Sweeps of relaxation before Newton's method is tried.
@@ -21,51 +21,135 @@ const PRODUCTS: usize = 100_000_000;
 /// Pivot of W, over its largest entry and m ε, below which it is rounding.
 const ROUNDING: f64 = 8.0;
 
-/// Solves u = b + WΛ for Λ, in place: from the values it has where W is regular; `w` holds W by rows. Gives the number of sweeps, or of iterations.
-///
-/// # Errors
-/// [`Unresolved`]: at once where W or b is not finite.
-pub fn solve(laws: &[RowLaw], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<usize, Unresolved> {
-    let m = laws.len();
-    if !b.iter().chain(w).all(|x| x.is_finite()) {
-        return Err(Unresolved { rows: m, sweeps: 0, change: f64::NAN });
+/// The problem, with its memory.
+#[derive(Debug)]
+pub struct Few {
+    factor: Factor,
+    problem: Augmented,
+    /// A = 1, with rows and columns beyond the rank that nothing moves.
+    unit: Matrix,
+    y: Vec<f64>,
+    solution: Vec<f64>,
+    /// Multipliers of an earlier sweep.
+    earlier: Vec<f64>,
+}
+
+impl Few {
+    /// Memory for so many rows. A rank beyond [`FEW`] asks for more of it when it is met.
+    pub fn new(rows: usize) -> Few {
+        let order = rows.clamp(1, FEW);
+        let mut few = Few {
+            factor: Factor {
+                entries: Vec::with_capacity(rows * rows),
+                left: Vec::with_capacity(rows),
+                rank: 0,
+            },
+            problem: Augmented::with_room(rows, order),
+            unit: Matrix::new(&Structure::dense(0)),
+            y: Vec::with_capacity(rows),
+            solution: Vec::with_capacity(rows),
+            earlier: Vec::with_capacity(rows),
+        };
+        few.identity(order);
+        few
     }
-    // The rows of one contact do not follow from each other.
-    let contacts = laws.iter().filter(|law| matches!(law, RowLaw::Free | RowLaw::Unilateral)).count();
-    if contacts < 2 {
-        return cone::relax(laws, w, b, lambda, cone::SWEEPS);
+
+    /// Makes A of this order.
+    fn identity(&mut self, order: usize) {
+        self.unit = Matrix::new(&Structure::dense(order));
+        (0..order).for_each(|i| self.unit.add(i, i, 1.0));
+        self.problem.keep_new(&self.unit);
     }
-    let factor = Factor::of(w, m);
-    if factor.rank == m
-        && let Ok(sweeps) = cone::relax(laws, w, b, lambda, SOON)
-    {
-        return Ok(sweeps);
-    }
-    let mut solution = vec![0.0; m];
-    match factor.solve(laws, (w, b), &mut solution) {
-        Ok(iterations) => {
-            lambda.copy_from_slice(&solution);
-            Ok(iterations)
+
+    /// Solves u = b + WΛ for Λ, in place: from the values it has where W is regular; `w` holds W by rows. Gives the number of sweeps, or of iterations.
+    ///
+    /// # Errors
+    /// [`Unresolved`]: at once where W or b is not finite.
+    pub fn solve(
+        &mut self,
+        laws: &[RowLaw],
+        w: &[f64],
+        b: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<usize, Unresolved> {
+        let m = laws.len();
+        if !b.iter().chain(w).all(|x| x.is_finite()) {
+            return Err(Unresolved { rows: m, sweeps: 0, change: f64::NAN });
         }
-        // Neither is certain with friction.
-        Err(unresolved) => cone::relax(laws, w, b, lambda, cone::SWEEPS.min(PRODUCTS / (m * m)))
-            .map_err(|relaxed| if relaxed.change <= unresolved.change { relaxed } else { unresolved }),
+        // The rows of one contact do not follow from each other.
+        let contacts = laws.iter().filter(|law| matches!(law, RowLaw::Free | RowLaw::Unilateral)).count();
+        if contacts < 2 {
+            return cone::relax(laws, (w, b), lambda, cone::SWEEPS, &mut self.earlier);
+        }
+        self.factor.set(w, m);
+        if self.factor.rank == m
+            && let Ok(sweeps) = cone::relax(laws, (w, b), lambda, SOON, &mut self.earlier)
+        {
+            return Ok(sweeps);
+        }
+        match self.newton(laws, w, b) {
+            Ok(iterations) => {
+                lambda.copy_from_slice(&self.solution);
+                Ok(iterations)
+            }
+            // Neither is certain with friction.
+            Err(unresolved) => {
+                let sweeps = cone::SWEEPS.min(PRODUCTS / (m * m));
+                cone::relax(laws, (w, b), lambda, sweeps, &mut self.earlier)
+                    .map_err(|relaxed| if relaxed.change <= unresolved.change { relaxed } else { unresolved })
+            }
+        }
+    }
+
+    /// Λ of least norm, from zero, into the solution.
+    fn newton(&mut self, laws: &[RowLaw], w: &[f64], b: &[f64]) -> Result<usize, Unresolved> {
+        let m = laws.len();
+        if self.factor.rank > self.unit.order() {
+            self.identity(self.factor.rank);
+        }
+        // Norms are measured by the mean of W of all normal rows, and of all rows of friction.
+        let stiffness = [true, false].map(|normal| {
+            let of = |i: &usize| matches!(laws[*i], RowLaw::Free | RowLaw::Unilateral) == normal;
+            let (sum, count) =
+                (0..m).filter(of).fold((0.0, 0.0), |(sum, count), i| (sum + w[i * m + i], count + 1.0));
+            if sum > 0.0 { count / sum } else { 1.0 }
+        });
+        let Few { factor, problem, unit, y, solution, .. } = self;
+        problem.begin(laws);
+        problem.measure_by(stiffness);
+        for row in factor.entries.chunks_exact(m) {
+            problem.push(row[..factor.rank].iter().copied().enumerate());
+        }
+        if !unit.is_factored() {
+            unit.factor().map_err(|_| Unresolved { rows: m, sweeps: 0, change: f64::INFINITY })?;
+        }
+        for (list, length) in [(&mut *solution, m), (y, unit.order())] {
+            list.clear();
+            list.resize(length, 0.0);
+        }
+        problem.solve(unit, b, solution, y)?;
+        Ok(problem.iterations)
     }
 }
 
-/// L, by rows with room for m columns.
+/// L, by rows with room for m columns, and the diagonal of W − L Lᵀ.
+#[derive(Debug)]
 struct Factor {
     entries: Vec<f64>,
+    left: Vec<f64>,
     rank: usize,
 }
 
 impl Factor {
-    fn of(w: &[f64], m: usize) -> Factor {
-        let mut entries = vec![0.0; m * m];
-        let mut left: Vec<f64> = (0..m).map(|i| w[i * m + i]).collect();
+    fn set(&mut self, w: &[f64], m: usize) {
+        let Factor { entries, left, rank } = self;
+        entries.clear();
+        entries.resize(m * m, 0.0);
+        left.clear();
+        left.extend((0..m).map(|i| w[i * m + i]));
         let least = ROUNDING * m as f64 * f64::EPSILON;
-        let mut rank = 0;
-        while rank < m {
+        *rank = 0;
+        while *rank < m {
             // Rows differ in units: what is left is measured by what there was.
             let part = |i: usize| if w[i * m + i] > 0.0 { left[i] / w[i * m + i] } else { 0.0 };
             let Some(pivot) = (0..m).max_by(|i, j| part(*i).total_cmp(&part(*j))) else { break };
@@ -73,49 +157,18 @@ impl Factor {
                 break;
             }
             let root = left[pivot].sqrt();
-            let row: Vec<f64> = entries[pivot * m..pivot * m + rank].to_vec();
-            for i in 0..m {
-                let of = &entries[i * m..i * m + rank];
-                let done: f64 = of.iter().zip(&row).map(|(x, y)| x * y).sum();
+            for i in (0..m).filter(|i| *i != pivot) {
+                let (of, row) = (&entries[i * m..], &entries[pivot * m..]);
+                let done: f64 = of.iter().zip(row).take(*rank).map(|(x, y)| x * y).sum();
                 // W is symmetric up to rounding.
                 let entry = (0.5 * (w[i * m + pivot] + w[pivot * m + i]) - done) / root;
-                entries[i * m + rank] = if left[i] > 0.0 { entry } else { 0.0 };
+                entries[i * m + *rank] = if left[i] > 0.0 { entry } else { 0.0 };
                 left[i] -= entry * entry;
             }
-            entries[pivot * m + rank] = root;
+            entries[pivot * m + *rank] = root;
             left[pivot] = 0.0;
-            rank += 1;
+            *rank += 1;
         }
-        Factor { entries, rank }
-    }
-
-    fn solve(
-        &self,
-        laws: &[RowLaw],
-        (w, b): (&[f64], &[f64]),
-        lambda: &mut [f64],
-    ) -> Result<usize, Unresolved> {
-        let (m, r) = (laws.len(), self.rank);
-        let mut unit = Matrix::new(&Structure::dense(r));
-        (0..r).for_each(|i| unit.add(i, i, 1.0));
-        let mut problem = Augmented::default();
-        problem.begin(laws);
-        // Of all normal rows, and of all rows of friction.
-        let stiffness = [true, false].map(|normal| {
-            let of = |i: &usize| matches!(laws[*i], RowLaw::Free | RowLaw::Unilateral) == normal;
-            let (sum, count) =
-                (0..m).filter(of).fold((0.0, 0.0), |(sum, count), i| (sum + w[i * m + i], count + 1.0));
-            if sum > 0.0 { count / sum } else { 1.0 }
-        });
-        problem.measure_by(stiffness);
-        for row in self.entries.chunks_exact(m) {
-            problem.push(row[..r].iter().copied().enumerate());
-        }
-        problem.keep(&unit);
-        let failed = |_| Unresolved { rows: m, sweeps: 0, change: f64::INFINITY };
-        unit.factor().map_err(failed)?;
-        problem.solve(&mut unit, b, lambda, &mut vec![0.0; r])?;
-        Ok(problem.iterations)
     }
 }
 
@@ -157,7 +210,7 @@ mod tests {
         for start in [0.0, 0.3] {
             let mut lambda = [start; 12];
             lambda[1] = 0.0;
-            solve(&laws(4, 0.5), &w, &b, &mut lambda).unwrap();
+            Few::new(12).solve(&laws(4, 0.5), &w, &b, &mut lambda).unwrap();
             for k in 0..4 {
                 assert!((lambda[k] - 0.5).abs() < 1e-10, "{lambda:?}");
             }
@@ -173,7 +226,7 @@ mod tests {
             *b += if k % 2 == 0 { 1e-7 } else { -1e-7 };
         }
         let mut lambda = [0.0; 12];
-        solve(&laws(4, 0.5), &w, &b, &mut lambda).unwrap();
+        Few::new(12).solve(&laws(4, 0.5), &w, &b, &mut lambda).unwrap();
         let sum = |list: &[f64]| list.iter().sum::<f64>();
         assert!((sum(&lambda[..4]) - 2.0).abs() < 1e-9, "{lambda:?}");
         // It turns about x by 0.1 × 0.2 N s, which the corners take by their normal impulses.
@@ -187,7 +240,7 @@ mod tests {
         let mut lambda = [0.0; 12];
         let (w, mut b) = on_its_face(&CORNERS, 0.0);
         b[2] = f64::NAN;
-        let unresolved = solve(&laws(4, 0.5), &w, &b, &mut lambda).unwrap_err();
+        let unresolved = Few::new(12).solve(&laws(4, 0.5), &w, &b, &mut lambda).unwrap_err();
         assert!(unresolved.sweeps == 0 && unresolved.change.is_nan());
     }
 }

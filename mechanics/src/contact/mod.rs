@@ -23,7 +23,7 @@ mod points;
 pub use augmented::Augmented;
 pub use cone::{FEW, RowLaw, Unresolved};
 pub use contacting::{Contact, Contacting, Law};
-pub use few::solve;
+pub use few::Few;
 pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};
 pub use obstacle::{Circle, Obstacle, Plane, Sphere, Surface, Translation};

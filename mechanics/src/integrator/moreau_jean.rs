@@ -11,7 +11,7 @@
 //!
 //! No event is located: any number of impacts may fall into a step. θ = ½ keeps the energy of linear free motion.
 //! Constraints hold at the level of velocities: gaps are violated by O(h), joints drift by O(h). Newton's method
-//! with the matrix M + θh C + θ²h² K, bordered by the rows of the joints; the impulses of the contacts solve the [cone problem](crate::contact::solve) in
+//! with the matrix M + θh C + θ²h² K, bordered by the rows of the joints; the impulses of the contacts solve the [cone problem](crate::contact::Few) in
 //! each iteration.
 //! Recorded accelerations and multipliers are means over the step. Dense output: linear.
 //!

@@ -17,7 +17,8 @@
 //! No event is located: any number of impacts may fall into a step. Joints hold exactly at both levels.
 //!
 //! A contact that stays closed acts over the whole step, in directions that turn with the motion: its impulse is ½ (G(qₙ) + G(qₙ₊₁))ᵀ P, the trapezium rule, where G(qₙ₊₁)ᵀ P
-//! would make the method one of order 1 (a point on a sphere: order 2, with 1/180 of the error at 1 ms). A contact that did not act at the start of the step acts along G(qₙ₊₁).
+//! would make the method one of order 1 (a point on a sphere: order 2, with 1/180 of the error at 1 ms). A contact that did not act at the start of the step acts
+//! along G(qₙ₊₁), as does friction whose tangents turn about the normal by themselves: those of a sphere do, the more the nearer to its poles.
 //!
 //! *Coupled* (`coupled.rs`): all is solved at once, and forces are those of the end of the step,
 //!
@@ -104,9 +105,10 @@ struct Work {
     matrix: Matrix,
     rows: Rows,
     impulses: Impulses,
-    /// Jacobian at the start of the step, and the rows that acted then; whether a contact that takes part is one of them.
+    /// Jacobian at the start of the step, and the rows that acted then, but for friction that twists; whether a contact that takes part is one of them.
     before: Rows,
     acted: Vec<bool>,
+    twists: Vec<bool>,
     turns: bool,
     /// The start of the step with all contacts open and the accelerations of the smooth motion; its end.
     from: State,
@@ -168,6 +170,7 @@ impl Work {
             impulses: Impulses::new(system, n + m),
             before: Rows::new(system, &state()),
             acted: vec![false; m],
+            twists: (0..m).map(|row| system.twists(row)).collect(),
             turns: false,
             from: state(),
             smooth: state(),
@@ -206,7 +209,8 @@ impl Work {
         self.from.v.copy_from_slice(&from.v);
         self.from.lambda.copy_from_slice(&from.lambda);
         self.from.copy_modes(from);
-        self.acted.iter_mut().zip(&from.mode).for_each(|(acted, mode)| *acted = *mode != Mode::Open);
+        let acted = self.acted.iter_mut().zip(&from.mode).zip(&self.twists);
+        acted.for_each(|((acted, mode), twists)| *acted = *mode != Mode::Open && !twists);
         open(self.rows.sets(), &mut self.from);
     }
 
