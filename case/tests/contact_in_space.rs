@@ -201,3 +201,34 @@ fn a_body_that_turns_by_more_than_half_a_turn_in_a_step_bounces() {
         }
     }
 }
+
+/// A point slides with friction over the top of a ball, past a pole of its tangents, and over its side, where gravity presses as much: the same motion.
+#[test]
+fn friction_on_a_ball_knows_no_poles() {
+    for scheme in [false, true] {
+        let end = |top: bool| {
+            // (x, up, across), of which "up" is z or y.
+            let place = |[x, up, across]: [f64; 3]| if top { [x, across, up] } else { [x, up, -across] };
+            let text = format!(
+                "gravity = {:?}\nrun = {{ duration = 0.1 }}\noutput = {{ step = 0.01 }}\n\
+                 integrator = {{ kind = 'nonsmooth-generalized-alpha', step = 1e-3, decoupled = {scheme} }}\n\
+                 [[body]]\nname = 'p'\nmass = 1\ninertia = {{ kind = 'sphere', radius = 0.1 }}\nposition = {:?}\nvelocity = {:?}\n\
+                 [[contact]]\non = 'p'\nobstacle = {{ kind = 'sphere', radius = 1 }}\n\
+                 law = {{ kind = 'constraint', restitution = 0, friction = 0.2 }}\n",
+                place([0.0, -9.81, 0.0]),
+                place([-0.05, 1e-5 + (1.0_f64 - 0.05 * 0.05 - 0.0005 * 0.0005).sqrt(), 0.0005]),
+                place([1.0, 0.05, 0.0]),
+            );
+            let run = finished(&reading(&text, &[]));
+            let last =
+                |axis: &str| *run.trajectory.column(&format!("p.velocity.{axis}")).unwrap().last().unwrap();
+            let (x, y, z) = (last("x"), last("y"), last("z"));
+            if top { [x, z, y] } else { [x, y, -z] }
+        };
+        let (top, side) = (end(true), end(false));
+        // A step without friction would be 2e-3 m/s.
+        for (a, b) in top.iter().zip(side) {
+            assert!((a - b).abs() < 2e-6, "{scheme}: {top:?} {side:?}");
+        }
+    }
+}

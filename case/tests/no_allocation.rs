@@ -25,6 +25,7 @@ use flexion::multibody::{
 use flexion::profile::Constant;
 use flexion::section::Matrices;
 use flexion::system::{Dynamics, Frame, Mode, Parameter, State, System};
+use flexion_case::parse;
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
 use std::sync::Arc;
@@ -243,6 +244,38 @@ fn no_nonsmooth_step_allocates() {
         Box::new(NonsmoothAlpha::coupled(0.8).unwrap()),
     ];
     assert_no_allocation("two balls", &mut balls, &from, 2e-3, all);
+}
+
+/// A box that slides and comes down on its four corners: twelve rows with friction, six of which follow from the others.
+#[test]
+fn no_nonsmooth_step_of_a_box_on_its_corners_allocates() {
+    let mut text = "
+gravity = [0, 0, -9.81]
+run = { duration = 1 }
+integrator = { kind = 'moreau-jean', step = 0.001 }
+[[body]]
+name = 'box'
+mass = 1
+inertia = { kind = 'box', size = [0.3, 0.2, 0.1] }
+position = [0, 0, 0.0501]
+velocity = [0.5, 0.2, -0.1]
+"
+    .to_owned();
+    for (i, [x, y]) in [[0.15, 0.1], [0.15, -0.1], [-0.15, 0.1], [-0.15, -0.1]].iter().enumerate() {
+        text += &format!(
+            "[[contact]]\nname = 'c{i}'\non = 'box'\nat = [{x}, {y}, 1e-4]\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\n\
+             law = {{ kind = 'constraint', restitution = 0.5, friction = 0.3 }}\n"
+        );
+    }
+    let reading = parse(text, std::path::Path::new("case.toml"), &[]).unwrap();
+    let mut live = reading.build().unwrap();
+    let from = live.system.initial();
+    let all: Vec<Box<dyn Integrator>> = vec![
+        Box::new(MoreauJean::new(0.5).unwrap()),
+        Box::new(NonsmoothAlpha::decoupled(0.8).unwrap()),
+        Box::new(NonsmoothAlpha::coupled(0.8).unwrap()),
+    ];
+    assert_no_allocation("a box", live.system.as_mut(), &from, 2e-3, all);
 }
 
 /// Every coupling on every basis it can use, uniform and graded, bands and dense matrices.

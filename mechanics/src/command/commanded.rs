@@ -295,6 +295,10 @@ impl Dynamics for Commanded {
         self.inner.contacts_are_local()
     }
 
+    fn twists(&self, row: usize) -> bool {
+        self.inner.twists(row)
+    }
+
     fn scales(&self) -> &[f64] {
         &self.scales
     }

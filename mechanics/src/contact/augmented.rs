@@ -14,6 +14,8 @@
 //! Λ̂ has no part that moves nothing: from Λ₀ = 0, of all Λ that make the same motion, the one of least norm is found.
 //!
 //! ρ is a multiple of the least Aⱼⱼ/Gᵢⱼ² of a row, which is at least 1/Wᵢᵢ. The result is judged by the residual |Λ − Π(Λ − u/Wᵢᵢ)| of the motion that A itself gives.
+//! Where b lies beside the range of W the centre moves by the same amount in every proximal step, along multipliers that make no motion: the iteration ends with the motion.
+//!
 //! Without friction F is the gradient of a convex function; with Coulomb's it is not, and there may be no solution, or several: where the iteration does not settle
 //! with one ρ a softer one is tried.
 //!
@@ -24,14 +26,21 @@ use crate::linalg::Matrix;
 
 /// ρ of a row in units of its stiffness, one attempt after the other.
 const STIFFNESSES: [f64; 3] = [30.0, 1.0, 1e3];
+/// Factor by which ρ grows where u settles slowly, for rows follow almost from each other, and its bound.
+const STIFFER: f64 = 10.0;
+const STIFFEST: f64 = 1e6;
 /// Iterations of an attempt.
 const ITERATIONS: usize = 80;
+/// Halvings of the part of a step that is taken.
+const HALVINGS: usize = 30;
 /// Residual, over the largest multiplier, at which the iteration ends.
 const SETTLED: f64 = 1e-12;
 /// Residual that must be reached where it falls no further, or at the last iteration.
 const TOLERABLE: f64 = 1e-8;
 /// Part of the residual of a proximal step that may be left by the next while it still falls.
 const FALLING: f64 = 0.5;
+/// Residual that may be left where the motion is at rest: what of b no multipliers can take away.
+const BESIDE: f64 = 1e-5;
 
 /// A contact: its normal row, and those of its friction.
 #[derive(Clone, Copy, Debug)]
@@ -64,17 +73,26 @@ pub struct Augmented {
     begins: Vec<usize>,
     /// The least Aⱼⱼ/Gᵢⱼ² of the normal row of each contact, and the larger of those of its friction.
     stiffness: Vec<[f64; 2]>,
+    /// The same for every contact, where it is given.
+    common: Option<[f64; 2]>,
     states: Vec<State>,
     before: Vec<State>,
     rates: Vec<f64>,
+    /// u of the proximal step before.
+    rates_before: Vec<f64>,
     centre: Vec<f64>,
     start: Vec<f64>,
     force: Vec<f64>,
     image: Vec<f64>,
-    /// y, the projection by which Λ is judged, and the contact of each normal row.
+    /// y, and the projection by which Λ is judged.
     motion: Vec<f64>,
     projection: Vec<f64>,
+    /// G δ of a step.
+    turn: Vec<f64>,
+    /// The contact of each normal row.
     of_normal: Vec<usize>,
+    /// ρ of the attempt in units of the stiffness.
+    ratio: f64,
     plain: Option<Matrix>,
     work: Option<Matrix>,
     /// Newton's iterations, and the residual over the largest multiplier, of the problem solved last.
@@ -84,6 +102,37 @@ pub struct Augmented {
 }
 
 impl Augmented {
+    /// Memory for so many rows and a dense A of this order.
+    pub(super) fn with_room(rows: usize, order: usize) -> Augmented {
+        let list = || Vec::with_capacity(rows);
+        let of_order = || Vec::with_capacity(order);
+        Augmented {
+            groups: Vec::with_capacity(rows),
+            laws: Vec::with_capacity(rows),
+            entries: Vec::with_capacity(rows * order),
+            begins: Vec::with_capacity(rows + 1),
+            stiffness: Vec::with_capacity(rows),
+            states: Vec::with_capacity(rows),
+            before: Vec::with_capacity(rows),
+            rates: list(),
+            rates_before: list(),
+            centre: list(),
+            start: list(),
+            force: of_order(),
+            image: of_order(),
+            motion: of_order(),
+            turn: list(),
+            projection: list(),
+            of_normal: Vec::with_capacity(rows),
+            ..Augmented::default()
+        }
+    }
+
+    /// Keeps A, of whatever order the one before was, and makes room for the matrix of Newton's method.
+    pub(super) fn keep_new(&mut self, matrix: &Matrix) {
+        (self.plain, self.work) = (Some(matrix.clone()), Some(matrix.clone()));
+    }
+
     /// Keeps A before it is factored.
     pub fn keep(&mut self, matrix: &Matrix) {
         match &mut self.plain {
@@ -125,6 +174,11 @@ impl Augmented {
         self.begins.push(0);
     }
 
+    /// Gives all contacts one stiffness, of their normal rows and of those of friction: norms are measured by it.
+    pub fn measure_by(&mut self, stiffness: [f64; 2]) {
+        self.common = Some(stiffness);
+    }
+
     /// The next row of G.
     pub fn push(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
         self.entries.extend(entries.filter(|(_, x)| *x != 0.0));
@@ -138,7 +192,7 @@ impl Augmented {
     /// Solves for Λ, from Λ₀ in `lambda`, with u = b of Λ₀, and adds y to `x`; `factored` is the matrix that was kept, with its factors.
     ///
     /// # Errors
-    /// [`Unresolved`], with the residual that is left.
+    /// [`Unresolved`], with the residual that is left; at once where b is not finite.
     pub fn solve(
         &mut self,
         factored: &mut Matrix,
@@ -146,6 +200,9 @@ impl Augmented {
         lambda: &mut [f64],
         x: &mut [f64],
     ) -> Result<(), Unresolved> {
+        if !b.iter().all(|b| b.is_finite()) {
+            return Err(Unresolved { rows: self.laws.len(), sweeps: 0, change: f64::NAN });
+        }
         let order = factored.order();
         for list in [&mut self.force, &mut self.image, &mut self.motion] {
             list.clear();
@@ -172,9 +229,13 @@ impl Augmented {
 
     /// The stiffness of every contact.
     fn measure(&mut self) {
-        let Augmented { groups, entries, begins, stiffness, plain, .. } = self;
+        let Augmented { groups, entries, begins, stiffness, plain, common, .. } = self;
         let Some(plain) = plain else { return };
         stiffness.clear();
+        if let Some(common) = common {
+            stiffness.resize(groups.len(), *common);
+            return;
+        }
         stiffness.extend(groups.iter().map(|group| {
             let of_row = |i: usize| {
                 let least = entries[begins[i]..begins[i + 1]].iter();
@@ -197,26 +258,34 @@ impl Augmented {
         ratio: f64,
     ) -> bool {
         y.fill(0.0);
+        self.ratio = ratio;
         self.centre.clear();
         self.centre.extend_from_slice(&self.start);
         self.before.clear();
-        let mut last = f64::INFINITY;
+        self.rates_before.clear();
+        let (mut last, mut last_moved) = (f64::INFINITY, f64::INFINITY);
         for _ in 0..ITERATIONS {
             self.iterations += 1;
             self.rates_of(b, y);
-            self.project(ratio, lambda);
+            self.project(lambda);
             if self.has_settled() {
                 self.move_by(factored, b, lambda, y);
                 let falls = self.residual < FALLING * last;
-                if self.residual <= SETTLED || (!falls && self.residual <= TOLERABLE) {
+                let moved = self.moved(lambda);
+                let tolerable = if moved <= SETTLED { BESIDE } else { TOLERABLE };
+                if self.residual <= SETTLED || (!falls && self.residual <= tolerable) {
                     return true;
                 }
-                last = self.residual;
+                if moved > FALLING * last_moved {
+                    self.ratio = (STIFFER * self.ratio).min(STIFFEST);
+                }
+                self.rates_before.clone_from(&self.rates);
+                (last, last_moved) = (self.residual, moved);
                 self.centre.copy_from_slice(lambda);
-                self.project(ratio, lambda);
+                self.project(lambda);
             }
             std::mem::swap(&mut self.states, &mut self.before);
-            if !self.improve(lambda, y, ratio) {
+            if !self.improve(lambda, y) {
                 return false;
             }
         }
@@ -243,9 +312,10 @@ impl Augmented {
     }
 
     /// Λ = Π(Λ̂ − ρ u), and what every contact does.
-    fn project(&mut self, ratio: f64, lambda: &mut [f64]) {
+    fn project(&mut self, lambda: &mut [f64]) {
         self.states.clear();
         for (k, (group, stiffness)) in self.groups.iter().zip(&self.stiffness).enumerate() {
+            let ratio = self.ratio;
             let rho = |i: usize| ratio * stiffness[usize::from(i != group.normal)];
             let z = |i: usize| self.centre[i] - rho(i) * self.rates[i];
             let mut state = projected(group, &self.laws, z, lambda);
@@ -267,6 +337,22 @@ impl Augmented {
                 (State::Slips(a, _), State::Slips(b, _)) => (a[0] - b[0]).abs() + (a[1] - b[1]).abs() <= 1e-6,
                 (now, before) => now == before,
             })
+    }
+
+    /// Largest change of u since the proximal step before, in terms of the largest multiplier.
+    fn moved(&self, lambda: &[f64]) -> f64 {
+        if self.rates_before.len() != self.rates.len() {
+            return f64::INFINITY;
+        }
+        let largest = lambda.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
+        let mut moved = 0.0_f64;
+        for (group, stiffness) in self.groups.iter().zip(&self.stiffness) {
+            for i in std::iter::once(group.normal).chain(group.friction[..group.count].iter().copied()) {
+                let change = self.rates[i] - self.rates_before[i];
+                moved = moved.max(change.abs() * stiffness[usize::from(i != group.normal)]);
+            }
+        }
+        moved / largest
     }
 
     /// Gᵀ (Λ − Λ₀) into `force`.
@@ -302,7 +388,7 @@ impl Augmented {
     }
 
     /// One step of Newton's method from y; `false` where its matrix is singular.
-    fn improve(&mut self, lambda: &[f64], y: &mut [f64], ratio: f64) -> bool {
+    fn improve(&mut self, lambda: &[f64], y: &mut [f64]) -> bool {
         self.put_force(lambda);
         let Some(plain) = &self.plain else { return false };
         plain.multiply(y, &mut self.image);
@@ -317,7 +403,7 @@ impl Augmented {
         for ((group, stiffness), state) in self.groups.iter().zip(&self.stiffness).zip(&self.before) {
             let mut add = |of: usize, by: usize, x: f64| {
                 let (rows, columns) = (self.row(of), self.row(by));
-                let rho = ratio * stiffness[usize::from(by != group.normal)];
+                let rho = self.ratio * stiffness[usize::from(by != group.normal)];
                 for (i, g) in rows {
                     columns.iter().for_each(|(j, h)| work.add(*i, *j, rho * x * g * h));
                 }
@@ -353,10 +439,52 @@ impl Augmented {
                 *f -= image;
             }
             work.solve(&mut self.force);
-            y.iter_mut().zip(&self.force).for_each(|(y, d)| *y += d);
+            let part = self.part();
+            y.iter_mut().zip(&self.force).for_each(|(y, d)| *y += part * d);
         }
         self.work = Some(work);
         ok && y.iter().all(|y| y.is_finite())
+    }
+}
+
+impl Augmented {
+    /// The part of the step δ in `force` to take, from y with A y in `image`: all of it, or up to where δᵀF changes its sign, if it has grown by then. Without
+    /// friction F is the gradient of a convex function that this part makes least along δ, so that the iteration cannot go to and fro.
+    fn part(&mut self) -> f64 {
+        let Some(plain) = &self.plain else { return 1.0 };
+        let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+        let first = dot(&self.force, &self.image);
+        plain.multiply(&self.force, &mut self.image);
+        let second = dot(&self.force, &self.image);
+        let mut turn = std::mem::take(&mut self.turn);
+        turn.clear();
+        let along = |i: usize| self.row(i).iter().map(|(j, g)| g * self.force[*j]).sum::<f64>();
+        turn.extend((0..self.laws.len()).map(along));
+        let mut projection = std::mem::take(&mut self.projection);
+        projection.clear();
+        projection.extend_from_slice(&self.start);
+        let mut slope = |part: f64| {
+            for (group, stiffness) in self.groups.iter().zip(&self.stiffness) {
+                let z = |i: usize| {
+                    let rho = self.ratio * stiffness[usize::from(i != group.normal)];
+                    self.centre[i] - rho * (self.rates[i] + part * turn[i])
+                };
+                projected(group, &self.laws, z, &mut projection);
+            }
+            let forces =
+                turn.iter().zip(&projection).zip(&self.start).map(|((turn, x), start)| turn * (x - start));
+            first + part * second - forces.sum::<f64>()
+        };
+        let begin = slope(0.0);
+        let mut bounds = [0.0, 1.0];
+        if begin < 0.0 && slope(1.0) > -begin {
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (bounds[0] + bounds[1]);
+                bounds[usize::from(slope(middle) > 0.0)] = middle;
+            }
+        }
+        (self.projection, self.turn) = (projection, turn);
+        bounds[1]
     }
 }
 

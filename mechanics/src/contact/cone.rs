@@ -59,7 +59,7 @@ pub struct Unresolved {
 pub const FEW: usize = 12;
 
 /// Sweeps allowed.
-const SWEEPS: usize = 200_000;
+pub(super) const SWEEPS: usize = 200_000;
 /// Change over the largest multiplier at which the relaxation ends: rounding, which may go to and fro for ever.
 const SETTLED: f64 = 4.0 * f64::EPSILON;
 /// Change that must be reached in all sweeps.
@@ -70,15 +70,20 @@ const LOOK: usize = 64;
 /// Change by multipliers that make no motion, over the largest: what of b no multipliers can take away.
 const BESIDE: f64 = 1e-5;
 
-/// Solves for Λ, in place and from the values it has: `w` holds W by rows. Gives the number of sweeps.
+/// Solves for Λ, in place and from the values it has, by so many sweeps at most: `w` holds W by rows, `last` is memory. Gives the number of sweeps.
 ///
 /// # Errors
 /// [`Unresolved`].
-pub fn solve(laws: &[RowLaw], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<usize, Unresolved> {
+pub(super) fn relax(
+    laws: &[RowLaw],
+    (w, b): (&[f64], &[f64]),
+    lambda: &mut [f64],
+    allowed: usize,
+    last: &mut Vec<f64>,
+) -> Result<usize, Unresolved> {
     let m = laws.len();
     let mut change = 0.0;
-    let mut last = Vec::new();
-    for sweep in 1..=SWEEPS {
+    for sweep in 1..=allowed {
         let (mut moved, mut largest) = (0.0_f64, f64::MIN_POSITIVE);
         let look = sweep % LOOK == 0;
         if look {
@@ -130,11 +135,11 @@ pub fn solve(laws: &[RowLaw], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Resul
         if change <= SETTLED || moved <= f64::MIN_POSITIVE {
             return Ok(sweep);
         }
-        if look && change <= BESIDE && is_still(w, lambda, &last, largest) {
+        if look && change <= BESIDE && is_still(w, lambda, last, largest) {
             return Ok(sweep);
         }
     }
-    if change <= TOLERABLE { Ok(SWEEPS) } else { Err(Unresolved { rows: m, sweeps: SWEEPS, change }) }
+    if change <= TOLERABLE { Ok(allowed) } else { Err(Unresolved { rows: m, sweeps: allowed, change }) }
 }
 
 /// Whether the motion W(Λ − Λ′) is rounding.
@@ -152,6 +157,10 @@ fn is_still(w: &[f64], lambda: &[f64], last: &[f64], largest: f64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn solve(laws: &[RowLaw], w: &[f64], b: &[f64], lambda: &mut [f64]) -> Result<usize, Unresolved> {
+        relax(laws, (w, b), lambda, SWEEPS, &mut Vec::new())
+    }
 
     /// A mass on a wall and on another mass: W of two contacts in series, both closing, and one pulling.
     #[test]

@@ -17,7 +17,8 @@
 //! (M + εK) v = M v⁻, and it is stopped without an impulse.
 
 use super::augmented::Augmented;
-use super::cone::{FEW, RowLaw, Unresolved, solve};
+use super::cone::{FEW, RowLaw, Unresolved};
+use super::few::Few;
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 
@@ -138,6 +139,7 @@ pub struct ImpactMap {
     inertia: f64,
     /// For many rows, whose products have room in M.
     many: Option<Augmented>,
+    few: Few,
 }
 
 /// The rows that take part in a problem, with their laws.
@@ -164,6 +166,7 @@ impl ImpactMap {
             weight: 0.0,
             inertia: 0.0,
             many: (m > FEW && system.contacts_are_local()).then(Augmented::default),
+            few: Few::new(0),
         }
     }
 
@@ -410,7 +413,7 @@ impl ImpactMap {
                 return Ok(());
             }
         }
-        solve(&part.laws, w, b, lambda).map(drop)
+        self.few.solve(&part.laws, w, b, lambda).map(drop)
     }
 
     /// The contacts that `takes_part`, with their friction; `slip` gives ±μ of friction that slips.

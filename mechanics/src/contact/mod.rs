@@ -7,20 +7,23 @@
 //! | `points.rs` | what a model says of its points |
 //! | `contacting/` | a model with contacts: rows, forces, energies |
 //! | `cone.rs` | multipliers in their sets: u = b + W Λ, u and Λ complementary |
+//! | `few.rs` | the same where W is formed: relaxed, or of least norm where rows follow from each other |
 //! | `augmented.rs` | the same of many rows, by Newton's method for the motion that they make |
 //! | `impact.rs` | velocities behind an impact, and the modes of the rows then |
 
 mod augmented;
 mod cone;
 mod contacting;
+mod few;
 mod force;
 mod impact;
 mod obstacle;
 mod points;
 
 pub use augmented::Augmented;
-pub use cone::{FEW, RowLaw, Unresolved, solve};
+pub use cone::{FEW, RowLaw, Unresolved};
 pub use contacting::{Contact, Contacting, Law};
+pub use few::Few;
 pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};
 pub use obstacle::{Circle, Obstacle, Plane, Sphere, Surface, Translation};

@@ -1,6 +1,7 @@
 //! Errors of a step, with the name of the unknown that shows them.
 
 use super::{Convergence, StepError};
+use crate::contact::Unresolved;
 use crate::linalg::Singular;
 use crate::system::{Dynamics, State};
 
@@ -27,6 +28,19 @@ pub(super) fn not_finite(system: &dyn Dynamics, time: f64, step: f64, state: &St
         .or_else(|| first_bad(&state.lambda).map(|i| i + velocities))
         .unwrap_or(0);
     StepError::NotFinite { time, step, worst: system.unknown(index) }
+}
+
+/// The error of contacts without a solution at `time`, in the iteration with the increment `x`.
+pub(super) fn contacts(
+    system: &dyn Dynamics,
+    (time, step): (f64, f64),
+    cause: Unresolved,
+    x: &[f64],
+) -> StepError {
+    if cause.change.is_nan() {
+        return StepError::NotFinite { time, step, worst: system.unknown(first_bad(x).unwrap_or(0)) };
+    }
+    StepError::Contacts { time, step, cause }
 }
 
 /// The error of a Newton iteration that does not converge, whose last increment `x` is `size` times its tolerance.

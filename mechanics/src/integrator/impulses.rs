@@ -7,16 +7,16 @@
 //! u = value + G x + W (P − P₀),   W = G A⁻¹ Gᵀ,   u and P complementary in the set of each row
 //! ```
 //!
-//! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::solve). Of many rows W is not formed, but the motion
+//! and the increment becomes x + A⁻¹ Gᵀ (P − P₀). See the [cone problem](crate::contact::Few). Of many rows W is not formed, but the motion
 //! that they make is found with A itself ([`Augmented`]).
 
 use super::rows::Rows;
-use crate::contact::{Augmented, FEW, RowLaw, Unresolved, solve};
+use crate::contact::{Augmented, FEW, Few, RowLaw, Unresolved};
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Set};
 
 /// The rows that take part in a step, and memory for their problem.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Impulses {
     /// Rows that take part, their laws, W, b and multipliers.
     rows: Vec<usize>,
@@ -28,6 +28,7 @@ pub(super) struct Impulses {
     images: Vec<f64>,
     /// For many rows, whose products have room in A.
     many: Option<Augmented>,
+    few: Few,
 }
 
 impl Impulses {
@@ -39,6 +40,7 @@ impl Impulses {
         let rows = if many { FEW } else { system.rows().len() };
         Impulses {
             many: many.then(Augmented::default),
+            few: Few::new(rows),
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
             w: Vec::with_capacity(rows * rows),
@@ -142,7 +144,7 @@ impl Impulses {
             let part = self.w[k * m..(k + 1) * m].iter().zip(&self.solution);
             self.b.push(value(row) + along(row, x) - part.map(|(w, p)| w * p).sum::<f64>());
         }
-        solve(&self.laws, &self.w, &self.b, &mut self.solution)?;
+        self.few.solve(&self.laws, &self.w, &self.b, &mut self.solution)?;
         for (k, &row) in self.rows.iter().enumerate() {
             let change = self.solution[k] - p[row];
             p[row] = self.solution[k];

@@ -11,7 +11,8 @@
 //!
 //! No event is located: any number of impacts may fall into a step. θ = ½ keeps the energy of linear free motion.
 //! Constraints hold at the level of velocities: gaps are violated by O(h), joints drift by O(h). Newton's method
-//! with the matrix M + θh C + θ²h² K; the impulses of each iteration solve the [cone problem](crate::contact::solve).
+//! with the matrix M + θh C + θ²h² K, bordered by the rows of the joints; the impulses of the contacts solve the [cone problem](crate::contact::Few) in
+//! each iteration.
 //! Recorded accelerations and multipliers are means over the step. Dense output: linear.
 //!
 //! Sources: Moreau (1988, doi 10.1007/978-3-7091-2624-0_1); Jean (1999, doi 10.1016/S0045-7825(98)00383-1).
@@ -43,7 +44,9 @@ pub struct MoreauJean {
 struct MoreauSteps {
     theta: f64,
     convergence: Convergence,
+    /// With rows of joints, it has their multipliers too.
     matrix: Matrix,
+    joints: bool,
     rows: Rows,
     middle: State,
     increment: Vec<f64>,
@@ -74,19 +77,22 @@ impl MoreauSteps {
         let size = system.size();
         let (n, m) = (size.v, size.lambda);
         let zeros = |n| vec![0.0; n];
+        let joints = system.rows().contains(&Set::Free);
+        let unknowns = if joints { n + m } else { n };
         MoreauSteps {
             theta,
             convergence: Convergence::full(TOLERANCE, 1e-9),
-            matrix: Matrix::new(&system.structure(0)),
+            matrix: Matrix::new(&system.structure(usize::from(joints))),
+            joints,
             rows: Rows::new(system, state),
             middle: State::zeros(size, state.t),
             increment: zeros(n),
-            rhs: zeros(n),
+            rhs: zeros(unknowns),
             impulses: zeros(m),
             start: zeros(m),
             gaps: zeros(m),
             rates: zeros(m),
-            part: Impulses::new(system, n),
+            part: Impulses::new(system, unknowns),
             scale: system.scales().to_vec(),
         }
     }
@@ -104,10 +110,15 @@ impl MoreauSteps {
         self.choose(system, from, h);
         to.v.copy_from_slice(&from.v);
         to.copy_modes(from);
+        self.middle.copy_modes(from);
         self.middle.memory.copy_from_slice(&from.memory);
         self.impulses.fill(0.0);
         self.convergence.begin(true);
         loop {
+            if self.joints || self.part.len() > 0 {
+                self.finish(system, from, h, to);
+                system.constraint(to, RowWeights::VELOCITY, &mut self.rates);
+            }
             // The residual at t₀ + θh.
             for i in 0..n {
                 self.middle.v[i] = (1.0 - theta) * from.v[i] + theta * to.v[i];
@@ -119,17 +130,24 @@ impl MoreauSteps {
             for (lambda, p) in self.middle.lambda.iter_mut().zip(&self.impulses) {
                 *lambda = p / h;
             }
-            system.residual(&self.middle, &mut self.rhs);
+            let (motion, joints) = self.rhs.split_at_mut(n);
+            system.residual(&self.middle, motion);
+            motion.iter_mut().for_each(|r| *r *= -h);
+            for ((r, set), rate) in joints.iter_mut().zip(self.rows.sets()).zip(&self.rates) {
+                *r = if *set == Set::Free { -rate } else { 0.0 };
+            }
             let weights =
                 Weights { a: 1.0, v: theta * h, q: (theta * h).powi(2), increment: Some(&self.increment) };
             system.tangent(&self.middle, weights, &mut self.matrix);
+            if self.joints {
+                self.rows.add_border(system, &self.middle, n, &mut self.matrix);
+            }
             self.part.keep(&self.matrix);
             self.matrix.factor().map_err(|e| failure::singular(system, from.t, h, e))?;
-            self.rhs.iter_mut().for_each(|r| *r *= -h);
             self.matrix.solve(&mut self.rhs);
             self.rows.store_jacobian(system, &self.middle);
             self.respond(system, from, h, to)?;
-            let square: f64 = self.rhs.iter().zip(&self.scale).map(|(x, s)| (h * x / s).powi(2)).sum();
+            let square: f64 = self.rhs[..n].iter().zip(&self.scale).map(|(x, s)| (h * x / s).powi(2)).sum();
             let size = (square / n.max(1) as f64).sqrt();
             counters.add_full_iteration(1 + self.part.len() as u64);
             match self.convergence.judge(size) {
@@ -142,7 +160,7 @@ impl MoreauSteps {
                         (from.t, h),
                         &self.convergence,
                         size,
-                        &self.rhs,
+                        &self.rhs[..n],
                     ));
                 }
             }
@@ -155,36 +173,34 @@ impl MoreauSteps {
         }
     }
 
-    /// Chooses the rows that take part in a step: joints, contacts that close, their friction.
+    /// Chooses the rows whose impulses lie in sets: contacts that close, their friction.
     fn choose(&mut self, system: &mut dyn Dynamics, from: &State, h: f64) {
         if !self.rows.is_empty() {
             system.constraint(from, RowWeights::POSITION, &mut self.gaps);
             system.constraint(from, RowWeights::VELOCITY, &mut self.start);
         }
         let (sets, gaps, start) = (self.rows.sets(), &self.gaps, &self.start);
-        self.part.choose(sets, |i| sets[i] == Set::Free || gaps[i] + 0.5 * h * start[i] <= 0.0);
+        self.part.choose(sets, |i| sets[i] != Set::Free && gaps[i] + 0.5 * h * start[i] <= 0.0);
     }
 
-    /// Adds to the increment `rhs` of the velocities what the impulses change, and to `to` the whole.
+    /// Adds to the increment `rhs` what the impulses of contacts change, and the whole to `to` and to the impulses of joints.
     fn respond(
         &mut self,
-        system: &mut dyn Dynamics,
+        system: &dyn Dynamics,
         from: &State,
         h: f64,
         to: &mut State,
     ) -> Result<(), StepError> {
-        if self.part.len() > 0 {
-            self.finish(system, from, h, to);
-            system.constraint(to, RowWeights::VELOCITY, &mut self.rates);
-            let (sets, rates, start) = (self.rows.sets(), &self.rates, &self.start);
-            let value = |row: usize| match sets[row] {
-                Set::Unilateral { restitution } => rates[row] + restitution * start[row].min(0.0),
-                _ => rates[row],
-            };
-            self.part
-                .solve(&mut self.matrix, &self.rows, value, &mut self.impulses, &mut self.rhs)
-                .map_err(|cause| StepError::Contacts { time: from.t, step: h, cause })?;
-        }
+        let (sets, rates, start) = (self.rows.sets(), &self.rates, &self.start);
+        let value = |row: usize| match sets[row] {
+            Set::Unilateral { restitution } => rates[row] + restitution * start[row].min(0.0),
+            _ => rates[row],
+        };
+        self.part
+            .solve(&mut self.matrix, &self.rows, value, &mut self.impulses, &mut self.rhs)
+            .map_err(|cause| failure::contacts(system, (from.t, h), cause, &self.rhs))?;
+        let joints = self.impulses.iter_mut().zip(sets).zip(self.rhs.get(from.v.len()..).unwrap_or_default());
+        joints.filter(|((_, set), _)| **set == Set::Free).for_each(|((p, _), change)| *p += change);
         to.v.iter_mut().zip(&self.rhs).for_each(|(v, x)| *v += x);
         Ok(())
     }

@@ -74,6 +74,11 @@ pub trait Dynamics: Send {
         false
     }
 
+    /// Whether the direction of a row of friction turns about the normal of its contact by itself, as the tangents of a sphere do.
+    fn twists(&self, _row: usize) -> bool {
+        false
+    }
+
     /// The size (> 0) by which errors and increments of each velocity's unknown are measured: `Size::v` entries, a
     /// length in metres for displacements, 1 for angles and slopes.
     fn scales(&self) -> &[f64];

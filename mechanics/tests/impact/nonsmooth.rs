@@ -175,6 +175,78 @@ fn a_block_on_an_incline_sticks_and_slides() {
     }
 }
 
+/// A point of mass 1 outside a circle of radius 1, under gravity.
+struct Hill;
+
+impl Events for Hill {}
+impl Steady for Hill {}
+impl Observed for Hill {}
+
+impl Dynamics for Hill {
+    fn size(&self) -> Size {
+        Size { q: 2, v: 2, lambda: 1, memory: 0 }
+    }
+    fn scales(&self) -> &[f64] {
+        &[1.0; 2]
+    }
+    fn rows(&self) -> &[Set] {
+        &[Set::Unilateral { restitution: 0.0 }]
+    }
+    fn residual(&mut self, s: &State, r: &mut [f64]) {
+        let radius = s.q[0].hypot(s.q[1]);
+        for i in 0..2 {
+            r[i] = s.a[i] - s.lambda[0] * s.q[i] / radius;
+        }
+        r[1] += GRAVITY;
+    }
+    fn constraint(&mut self, s: &State, c: RowWeights, g: &mut [f64]) {
+        let radius = s.q[0].hypot(s.q[1]);
+        let dot = |x: &[f64], y: &[f64]| x[0] * y[0] + x[1] * y[1];
+        let rate = dot(&s.q, &s.v) / radius;
+        let second = (dot(&s.q, &s.a) + dot(&s.v, &s.v) - rate * rate) / radius;
+        g[0] = c.combine(radius - 1.0, rate, second);
+    }
+    fn jacobian(&mut self, s: &State, visit: &mut VisitRow<'_>) {
+        let radius = s.q[0].hypot(s.q[1]);
+        visit(0, &[0, 1], &[s.q[0] / radius, s.q[1] / radius]);
+    }
+    fn tangent(&mut self, s: &State, w: Weights<'_>, out: &mut Matrix) {
+        out.clear();
+        let square = s.q[0] * s.q[0] + s.q[1] * s.q[1];
+        let force = s.lambda[0] / square.sqrt();
+        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let unit = f64::from(u8::from(i == j));
+            out.add(i, j, w.a * unit - w.q * force * (unit - s.q[i] * s.q[j] / square));
+        }
+    }
+}
+
+/// A point slides down a circle without friction, θ̈ = g sin θ: the direction of the force turns, and the order is 2.
+#[test]
+fn a_contact_that_stays_closed_on_a_curved_obstacle_is_of_order_2() {
+    let (angle, end) = (0.2_f64, 0.5);
+    // θ by the series of Störmer's rule with steps of 5 µs, whose error is 1e-10.
+    let (mut theta, count) = ([angle, angle], 100_000);
+    let step = end / f64::from(count);
+    theta[1] += 0.5 * step * step * GRAVITY * angle.sin();
+    for _ in 1..count {
+        let next = 2.0 * theta[1] - theta[0] + step * step * GRAVITY * theta[1].sin();
+        theta = [theta[1], next];
+    }
+    for mut method in methods(0.8) {
+        let mut error = |count: f64| {
+            let mut start = Hill.initial();
+            start.q = vec![angle.sin(), angle.cos()];
+            start.mode[0] = Mode::Open;
+            let last = steps(method.as_mut(), &mut Hill, start, (end, end / count), |_, _, _| {});
+            assert!((last.q[0].hypot(last.q[1]) - 1.0).abs() < 1e-12, "{last:?}");
+            (last.q[0].atan2(last.q[1]) - theta[1]).abs()
+        };
+        let (coarse, fine) = (error(250.0), error(500.0));
+        assert!(fine < 2e-6 && (3.5..4.5).contains(&(coarse / fine)), "{coarse:e} {fine:e}");
+    }
+}
+
 /// Violation of the gap at the ends of the steps of a rod that strikes a wall: rounding, where Moreau–Jean's scheme leaves
 /// a part of v₀ h.
 #[test]

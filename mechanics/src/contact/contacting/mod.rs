@@ -345,6 +345,12 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
             && self.contacts.iter().filter(rigid).all(|placed| self.inner.is_local(placed.contact.point))
     }
 
+    fn twists(&self, row: usize) -> bool {
+        let of_row = |placed: &&Placed| placed.friction.len() == 2 && placed.friction.contains(&row);
+        let obstacle = self.contacts.iter().find(of_row).map(|placed| &placed.contact.obstacle);
+        obstacle.is_some_and(|obstacle| obstacle.surface(Vec3([0.0; 3]), 0.0).curvatures[1] != 0.0)
+    }
+
     fn scales(&self) -> &[f64] {
         self.inner.scales()
     }

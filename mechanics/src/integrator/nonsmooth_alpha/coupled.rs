@@ -43,6 +43,7 @@ impl Coupled {
         (to.t, to.side) = (span.end, span.side);
         work.smooth.copy_from(to);
         work.takes_part.fill(false);
+        work.turns = false;
         for list in [&mut work.alpha, &mut work.forces, &mut self.velocity, &mut self.impulses] {
             list.fill(0.0);
         }
@@ -53,6 +54,9 @@ impl Coupled {
             system.constraint(to, RowWeights::POSITION, &mut work.gaps);
             let new = work.admit(|work, i| work.gaps[i] <= 0.0);
             work.corrected = work.takes_part.contains(&true);
+            if new {
+                work.keep_directions(system);
+            }
             system.residual(to, &mut self.residual);
             // r₂, with which the position is corrected.
             work.difference(system, to, None, &self.residual);
@@ -76,7 +80,7 @@ impl Coupled {
             work.rows.store_jacobian(system, to);
             self.before.copy_from_slice(&work.forces);
             let solved = work.solve_cone(Level::Position, [h, half], None);
-            solved.map_err(|cause| work.unresolved(h, cause))?;
+            solved.map_err(|cause| work.unresolved(system, h, cause))?;
             counters.add_full_iteration(1 + work.impulses.len() as u64);
             let mut square: f64 = work.rhs[..n].iter().zip(&work.scale).map(|(x, s)| (x / s).powi(2)).sum();
             let active = joints || work.corrected;
@@ -117,6 +121,7 @@ impl Coupled {
                 self.place(work, formulas, system, h, to);
                 system.residual(to, &mut self.residual);
                 work.difference(system, to, Some((&self.velocity, &self.impulses)), &self.residual);
+                work.turn(|k| self.impulses[k]);
                 system.constraint(to, RowWeights::VELOCITY, &mut work.rates);
                 for (k, set) in work.rows.sets().iter().enumerate() {
                     work.rhs[n + k] = if *set == Set::Free { work.rates[k] / h } else { 0.0 };
@@ -125,7 +130,7 @@ impl Coupled {
                 self.mass.solve(&mut work.rhs);
                 let swapped = (&mut self.mass, &mut self.impulses[..]);
                 let solved = work.solve_cone(Level::Velocity, [h, half], Some(swapped));
-                solved.map_err(|cause| work.unresolved(h, cause))?;
+                solved.map_err(|cause| work.unresolved(system, h, cause))?;
                 counters.solves += 3 + work.impulses.len() as u64;
                 for i in 0..n {
                     self.velocity[i] += work.rhs[i];

@@ -35,6 +35,7 @@ impl Work {
         for i in 0..self.takes_part.len() {
             self.takes_part[i] = self.is_contact(i) && (self.forces[i] > 0.0 || self.gaps[i] <= 0.0);
         }
+        self.keep_directions(system);
         report.iterations += self.correct(system, span.step, to, Level::Velocity, counters)?;
         to.a.copy_from_slice(&self.trial.a);
         to.lambda.copy_from_slice(&self.trial.lambda);
@@ -83,6 +84,12 @@ impl Work {
                     (true, Level::Velocity) => self.rates[k] / to_v,
                 };
             }
+            if level == Level::Velocity {
+                let (now, smooth) =
+                    (std::mem::take(&mut self.trial.lambda), std::mem::take(&mut self.smooth.lambda));
+                self.turn(|k| now[k] - smooth[k]);
+                (self.trial.lambda, self.smooth.lambda) = (now, smooth);
+            }
             self.rhs.iter_mut().for_each(|r| *r = -*r);
             let weights = Weights { a: 1.0, v: to_v, q: to_q, increment: Some(&self.increment) };
             system.tangent(&self.trial, weights, &mut self.matrix);
@@ -92,7 +99,7 @@ impl Work {
             self.matrix.solve(&mut self.rhs);
             self.rows.store_jacobian(system, to);
             let solved = self.solve_cone(level, [to_v, to_q], None);
-            solved.map_err(|cause| self.unresolved(h, cause))?;
+            solved.map_err(|cause| self.unresolved(system, h, cause))?;
             let mut square = 0.0;
             for i in 0..n {
                 self.alpha[i] += self.rhs[i];
