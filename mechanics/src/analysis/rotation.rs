@@ -2,10 +2,10 @@
 
 use super::equations::largest;
 use super::equilibrium::{Effort, NoEquilibrium, direct, nearby};
-use super::stability::{Stability, is_neutral, negative_parts_of, stability};
+use super::stability::{Stability, is_neutral, negative_parts, stability};
 use super::stiffness::constrained;
 use crate::linalg::Matrix;
-use crate::linalg::eigen::EigenError;
+use crate::linalg::eigen::{EigenError, negative_directions};
 use crate::system::{Limit, NotSet, Parameter, State, System};
 use std::ops::ControlFlow;
 
@@ -110,8 +110,9 @@ impl NoRotation {
 struct Point {
     state: State,
     speed: f64,
-    /// Negative directions of K.
+    /// Negative directions of K, and those that rounding does not decide, where they are known: these are dear.
     negative: usize,
+    certain: Option<usize>,
     /// K with its rows, factored where it is regular.
     tangent: Option<Matrix>,
 }
@@ -119,9 +120,26 @@ struct Point {
 impl Point {
     fn of(system: &mut dyn System, state: &State, speed: f64) -> Point {
         let (mut stiffness, multipliers) = constrained(system, state);
-        let negative = negative_parts_of(system, state, (&stiffness, multipliers));
+        let negative = negative_directions(&stiffness.symmetrized(), multipliers);
         let tangent = stiffness.factor_equilibrated().is_ok().then_some(stiffness);
-        Point { state: state.clone(), speed, negative, tangent }
+        Point { state: state.clone(), speed, negative, certain: None, tangent }
+    }
+
+    /// Whether K has as many negative directions, but for rounding, as at another equilibrium; the system is left at the speed of this one.
+    fn is_like(&mut self, system: &mut dyn System, other: &mut Point) -> bool {
+        self.negative == other.negative || {
+            let theirs = other.certain(system);
+            self.certain(system) == theirs
+        }
+    }
+
+    fn certain(&mut self, system: &mut dyn System) -> usize {
+        let count = self.certain.unwrap_or_else(|| {
+            let _ = set(system, self.speed);
+            negative_parts(system, &self.state)
+        });
+        let _ = set(system, self.speed);
+        *self.certain.insert(count)
     }
 
     /// −K⁻¹r, with the residual at the speed at which the system is: the increment to its equilibrium along the tangent.
@@ -135,14 +153,15 @@ impl Point {
         Some(d)
     }
 
-    /// The equilibrium at the speed `to`, where it is on the same branch; `tangents` tells whether K has any to go by.
+    /// The equilibrium at the speed `to`, where it is on the same branch, and whether a critical speed lies between; `tangents` tells whether K has any
+    /// to go by.
     fn next(
         &mut self,
         system: &mut dyn System,
         to: f64,
         (unit, tangents): (f64, bool),
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<(Point, Effort), Missed> {
+    ) -> Result<(Point, Effort, bool), Missed> {
         set(system, to)?;
         let scales = system.scales().to_vec();
         let elsewhere = |system: &dyn System, (worst, _): (usize, f64)| NoEquilibrium {
@@ -167,11 +186,10 @@ impl Point {
         let mut moved = vec![0.0; scales.len()];
         system.difference(&self.state.q, &state.q, &mut moved);
         let most = largest(&moved, &scales);
-        if (to - self.speed).abs() <= CRITICAL * unit && most.1 <= BESIDE {
-            return Ok((point, effort));
-        }
-        if most.1 > FAR || point.negative != self.negative {
-            return Err(elsewhere(system, most).into());
+        let passes = (to - self.speed).abs() <= CRITICAL * unit && most.1 <= BESIDE;
+        let alike = most.1 <= FAR && point.is_like(system, self);
+        if passes || !alike {
+            return if passes { Ok((point, effort, !alike)) } else { Err(elsewhere(system, most).into()) };
         }
         if tangents && most.1 > ROUNDING {
             set(system, self.speed)?;
@@ -185,7 +203,7 @@ impl Point {
                 return Err(Missed::Tangent(elsewhere(system, (worst, 0.0))));
             }
         }
-        Ok((point, effort))
+        Ok((point, effort, false))
     }
 }
 
@@ -281,11 +299,11 @@ fn follow(
             Some(last) => last.next(system, next, (unit, tangents), &mut level),
             None => set(system, next).and_then(|()| {
                 let effort = direct(system, state, &mut level)?;
-                Ok((Point::of(system, state, next), effort))
+                Ok((Point::of(system, state, next), effort, false))
             }),
         };
         let source = match found {
-            Ok((point, spent)) => {
+            Ok((point, spent, is_critical)) => {
                 effort.levels += spent.levels;
                 effort.iterations += spent.iterations;
                 state.copy_from(&point.state);
@@ -293,7 +311,7 @@ fn follow(
                 if next == to {
                     return Ok(effort);
                 }
-                if last.as_ref().is_some_and(|last| last.negative != point.negative) {
+                if is_critical {
                     (step, tries) = (wide.take().unwrap_or(step), 0);
                 } else {
                     step = if step == 0.0 { to - from } else { 2.0 * (next - reached) };

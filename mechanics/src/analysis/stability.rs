@@ -70,15 +70,6 @@ fn rounds(all: [Matrix; 3], multipliers: usize) -> bool {
 /// symmetric or not.
 pub(super) fn negative_parts(system: &mut dyn System, state: &State) -> usize {
     let (stiffness, multipliers) = constrained(system, state);
-    negative_parts_of(system, state, (&stiffness, multipliers))
-}
-
-/// The same with K, and its number of multipliers.
-pub(super) fn negative_parts_of(
-    system: &mut dyn System,
-    state: &State,
-    (stiffness, multipliers): (&Matrix, usize),
-) -> usize {
     match negative_directions(&stiffness.symmetrized(), multipliers) {
         0 => 0,
         negative => {
