@@ -73,7 +73,7 @@ fn diagram(format: &str, text: &str) -> Campbell {
         revolutions: 6,
     };
     let on = |threads| {
-        flexion_case::campbell(reading.case.vibrating(true).unwrap().0, None, &plan, threads, &|_| true)
+        flexion_case::campbell(reading.case.vibrating(true).unwrap().0, None, &plan, threads, &|_, _| true)
             .unwrap()
     };
     let alone = on(1);

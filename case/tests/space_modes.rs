@@ -122,7 +122,7 @@ fn a_campbell_diagram_knows_the_errors_of_its_mesh() {
         revolutions: 0,
     };
     let [system, fine] = [&reading, &finer].map(|reading| reading.case.vibrating(true).unwrap().0);
-    let diagram = campbell(system, Some((fine, 2.0)), &plan, 1, &|_| true).unwrap();
+    let diagram = campbell(system, Some((fine, 2.0)), &plan, 1, &|_, _| true).unwrap();
     for speed in [0.0, 4.0] {
         let [(coarse, _), (fine, _)] = [&reading, &finer].map(|reading| {
             let (mut system, _) = reading.case.vibrating(true).unwrap();
@@ -219,7 +219,7 @@ fn rounding_is_no_negative_damping() {
         [[joint]]\nkind = \"fixed\"\nbetween = [\"shaft.tip\", \"disc\"]\n";
     let speeds = (0..=30).map(|k| 2.0 * f64::from(k)).collect();
     let plan = Plan { speeds, count: 4, stations: Vec::new(), hub: HubState::Held, revolutions: 0 };
-    let diagram = campbell(read(text).case.vibrating(true).unwrap().0, None, &plan, 1, &|_| true).unwrap();
+    let diagram = campbell(read(text).case.vibrating(true).unwrap().0, None, &plan, 1, &|_, _| true).unwrap();
     assert_eq!(diagram.instabilities, []);
     assert!(diagram.branches.iter().flat_map(|b| &b.points).all(|p| p.mode.damping_ratio().abs() < 1e-7));
 }
@@ -249,7 +249,7 @@ fn the_whirls_of_a_round_shaft_are_followed_past_its_critical_speeds() {
     let speeds: Vec<f64> = (0..=12).map(|i| 5.0 * f64::from(i)).collect();
     let plan = Plan { speeds, count: 4, stations: vec![], hub: HubState::Held, revolutions: 2 };
     let system = reading.case.vibrating(true).unwrap().0;
-    let diagram = campbell(system, None, &plan, 1, &|_| true).unwrap();
+    let diagram = campbell(system, None, &plan, 1, &|_, _| true).unwrap();
     let mut expected = Vec::new();
     for (pair, n) in [(0, 1), (2, 2)] {
         let whirl = |sign: f64| move |speed: f64| (simply_supported(n) + sign * speed).abs();

@@ -55,7 +55,7 @@ pub fn resonances(campbell: &Campbell, revolutions: u32, margin: f64) -> Vec<Res
 
 /// Whether a point is at rest, and its frequency zero but for rounding: there all lines begin.
 pub(super) fn rests(point: &Point) -> bool {
-    point.speed == 0.0 && !(point.mode.rounding < UNCERTAIN)
+    point.speed == 0.0 && !(point.mode.frequency() > 0.0 && point.mode.rounding < UNCERTAIN)
 }
 
 fn square(x: f64) -> f64 {
