@@ -4,6 +4,8 @@
 
 use flexion::analysis::campbell::{Branch, Point};
 use flexion::analysis::modes::Mode;
+use flexion::analysis::rotation::rotate;
+use flexion::system::Frame;
 use flexion_case::{DiagramRequest, ModesRequest, Reading, parse};
 use flexion_results::{Frequencies, Units};
 use std::f64::consts::PI;
@@ -260,7 +262,10 @@ fn beside(distance: f64) -> Reading {
 
 /// Branches, critical speeds and ranges near Ω of a diagram from rest to 8 rad/s.
 fn diagram(reading: &Reading, speeds: usize) -> flexion_case::Diagram {
-    let speeds = (0..speeds).map(|i| 8.0 * i as f64 / (speeds - 1) as f64).collect();
+    diagram_at(reading, (0..speeds).map(|i| 8.0 * i as f64 / (speeds - 1) as f64).collect())
+}
+
+fn diagram_at(reading: &Reading, speeds: Vec<f64>) -> flexion_case::Diagram {
     let units = Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS };
     let request =
         DiagramRequest { speeds, count: 3, revolutions: 1, margin: 5.0, free_hub: false, threads: 1, units };
@@ -310,6 +315,41 @@ fn a_straight_shaft_has_one_critical_speed_and_the_ranges_of_its_whirls() {
             let [whirl] = found.resonances.as_slice() else { panic!("{:?}", found.resonances) };
             for (found, side) in [(whirl.from, 1.05), (whirl.to, 0.95)] {
                 assert!((found * (1.0 + side) / first - 1.0).abs() < 1e-5, "{distance}, {speeds}: {whirl:?}");
+            }
+        }
+    }
+}
+
+/// A strip held at both ends and beside the axis bends outwards beyond its critical speed. By collocation of von Kármán's equations its middle has three
+/// equilibria there, 2.97e-2, −5.4e-3 and −2.47e-2: the last has a positive stiffness too, and is not that which is followed from rest.
+#[test]
+fn a_strip_held_at_both_ends_bends_outwards_whatever_the_speeds() {
+    let speed = 51.4579;
+    for shear in [false, true] {
+        let reading = read(format!(
+            "rotation = {{ axis = [0, 0, 1] }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 's'\nlength = 1\nstart = [3e-3, 0, 0]\n\
+             direction = [0, 0, 1]\nup = [1, 0, 0]\nroot = 'clamped'\ntip = 'clamped'\nelements = 16\nshear = {shear}\npolar-inertia = 1e-9\n\
+             section = {{ kind = 'general', mass-per-length = 1, axial-stiffness = 1e5, torsional-stiffness = 1, bending-stiffness = 1, \
+             bending-stiffness-across = 20, {} }}\n",
+            if shear { "shear-stiffness = 1e5, shear-stiffness-across = 1e5" } else { "" }
+        ));
+        let mut system = reading.case.vibrating(true).unwrap().0;
+        let mut state = system.initial();
+        rotate(system.as_mut(), &mut state, 0.0, speed, &mut || true).unwrap();
+        let mut middle = [Frame::default()];
+        let beam = system.drawn();
+        system.frames(beam, &state, &[0.5], &mut middle);
+        let deflection = middle[0].position.0[0] - 3e-3;
+        assert!((deflection / 2.97e-2 - 1.0).abs() < 0.01, "{shear}: {deflection}");
+        let (expected, _) = modes(&reading, speed, 3);
+        for speeds in [2, 3, 9] {
+            let speeds = (0..speeds).map(|i| speed * f64::from(i) / f64::from(speeds - 1)).collect();
+            let found = diagram_at(&reading, speeds).campbell;
+            let mut last: Vec<f64> =
+                found.branches.iter().filter_map(|b| b.points.last()).map(|p| p.mode.frequency()).collect();
+            last.sort_by(f64::total_cmp);
+            for (found, expected) in last.iter().zip(&expected) {
+                assert!((found / expected - 1.0).abs() < 1e-7, "{shear}: {last:?} {expected:?}");
             }
         }
     }
