@@ -24,6 +24,8 @@ const BESIDE: f64 = 3e-4;
 /// size of the system.
 const CURVED: [f64; 2] = [0.25, 0.05];
 const ROUNDING: f64 = 1e-9;
+/// Motion, over the size of the system, from which on Newton's method begins where the tangent leads.
+const LED: f64 = 1e-6;
 /// Relative accuracy of the speed at which an equilibrium ends.
 const ACCURACY: f64 = 1e-6;
 
@@ -177,9 +179,12 @@ impl Point {
             if !(led.1 <= 2.0 * FAR) {
                 return Err(Missed::Tangent(elsewhere(system, led)));
             }
-            let (d, multipliers) = d.split_at(scales.len());
-            system.retract(&self.state.q, d, &mut state.q);
-            state.lambda.iter_mut().zip(multipliers).for_each(|(lambda, d)| *lambda += d);
+            // Next to a critical speed a small one is rounding.
+            if led.1 > LED {
+                let (d, multipliers) = d.split_at(scales.len());
+                system.retract(&self.state.q, d, &mut state.q);
+                state.lambda.iter_mut().zip(multipliers).for_each(|(lambda, d)| *lambda += d);
+            }
         }
         let effort = nearby(system, &mut state, watch)?;
         let mut point = Point::of(system, &state, to);
