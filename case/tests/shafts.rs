@@ -331,7 +331,11 @@ fn a_strip_held_at_both_ends_bends_outwards_whatever_the_speeds() {
              direction = [0, 0, 1]\nup = [1, 0, 0]\nroot = 'clamped'\ntip = 'clamped'\nelements = 16\nshear = {shear}\npolar-inertia = 1e-9\n\
              section = {{ kind = 'general', mass-per-length = 1, axial-stiffness = 1e5, torsional-stiffness = 1, bending-stiffness = 1, \
              bending-stiffness-across = 20, {} }}\n",
-            if shear { "shear-stiffness = 1e5, shear-stiffness-across = 1e5" } else { "" }
+            if shear {
+                "shear-stiffness = 3e4, shear-stiffness-across = 3e4, rotary-inertia = 1e-5, rotary-inertia-across = 2e-4"
+            } else {
+                ""
+            }
         ));
         let mut system = reading.case.vibrating(true).unwrap().0;
         let mut state = system.initial();
@@ -340,7 +344,9 @@ fn a_strip_held_at_both_ends_bends_outwards_whatever_the_speeds() {
         let beam = system.drawn();
         system.frames(beam, &state, &[0.5], &mut middle);
         let deflection = middle[0].position.0[0] - 3e-3;
-        assert!((deflection / 2.97e-2 - 1.0).abs() < 0.01, "{shear}: {deflection}");
+        // Shear makes it softer, and its critical speed lower.
+        let bound = if shear { 0.05 } else { 0.01 };
+        assert!((deflection / 2.97e-2 - 1.0).abs() < bound, "{shear}: {deflection}");
         let (expected, _) = modes(&reading, speed, 3);
         for speeds in [2, 3, 9] {
             let speeds = (0..speeds).map(|i| speed * f64::from(i) / f64::from(speeds - 1)).collect();

@@ -17,7 +17,7 @@ const LEAST: f64 = 1e-4;
 const CRITICAL: f64 = 1e-5;
 /// Steps that may be too long, between two critical speeds.
 const TRIES: u32 = 200;
-/// Motion in a step, over the size of the system, and in one across which that number changes.
+/// Motion in a step, over the size of the system or the motion so far, and in one across which that number changes.
 const FAR: f64 = 0.1;
 const BESIDE: f64 = 3e-4;
 /// Part of the motion of an unknown, and of the largest, that a step may lie off the tangents at both of its ends; and what is rounding, over the
@@ -161,7 +161,7 @@ impl Point {
         &mut self,
         system: &mut dyn System,
         to: f64,
-        (unit, tangents): (f64, bool),
+        (unit, far, tangents): (f64, f64, bool),
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<(Point, Effort, bool), Missed> {
         set(system, to)?;
@@ -176,7 +176,7 @@ impl Point {
         let forward = if tangents { self.along_tangent(system) } else { None };
         if let Some(d) = &forward {
             let led = largest(d, &scales);
-            if !(led.1 <= 2.0 * FAR) {
+            if !(led.1 <= 2.0 * far) {
                 return Err(Missed::Tangent(elsewhere(system, led)));
             }
             // Next to a critical speed a small one is rounding.
@@ -192,7 +192,7 @@ impl Point {
         system.difference(&self.state.q, &state.q, &mut moved);
         let most = largest(&moved, &scales);
         let passes = (to - self.speed).abs() <= CRITICAL * unit && most.1 <= BESIDE;
-        let alike = most.1 <= FAR && point.is_like(system, self);
+        let alike = most.1 <= far && point.is_like(system, self);
         if passes || !alike {
             return if passes { Ok((point, effort, !alike)) } else { Err(elsewhere(system, most).into()) };
         }
@@ -251,7 +251,7 @@ fn set(system: &mut dyn System, speed: f64) -> Result<(), Missed> {
 /// The equilibrium r(q, 0, 0; Ω) = 0 is followed in Ω, under all of the loads; where they have none at `from` = 0, they grow at the first speed
 /// that allows one. A step Δq of the speed is divided until K has as many negative directions behind it as before and Δq is near both −K⁻¹r(q; Ω + ΔΩ)
 /// at its begin, from where it is looked for, and K⁻¹r(q + Δq; Ω) at its end: each unknown within a quarter of its own motion and a twentieth of
-/// the largest, which is a tenth of the size of the system at most. Beyond a critical speed another equilibrium lies nearby, on the other side of
+/// the largest, which is a tenth of the size of the system, or of the motion so far, at most. Beyond a critical speed another equilibrium lies nearby, on the other side of
 /// the axis. A step of 1e-5 of the speed that moves the system by 3e-4 of its size at most passes a critical one, so that a shaft that lies on the
 /// axis, but for 1e-10 of its length, stays straight; from 1e-9 on it bends outwards, and has no critical speed. `watch` is called for every
 /// equilibrium that is tried on the way, and ends the search by `false`.
@@ -279,6 +279,7 @@ fn follow(
     system.hold(true);
     let mut goes_on = true;
     let mut effort = Effort::default();
+    let start = state.q.clone();
     let mut last = None;
     if from != 0.0 && system.set(Parameter::Speed, from).is_ok() {
         state.v.fill(0.0);
@@ -301,7 +302,12 @@ fn follow(
         };
         let unit = reached.abs().max(next.abs()).max(LEAST * to.abs());
         let found = match &mut last {
-            Some(last) => last.next(system, next, (unit, tangents), &mut level),
+            Some(last) => {
+                let mut so_far = vec![0.0; last.state.v.len()];
+                system.difference(&start, &last.state.q, &mut so_far);
+                let far = FAR * largest(&so_far, system.scales()).1.max(1.0);
+                last.next(system, next, (unit, far, tangents), &mut level)
+            }
             None => set(system, next).and_then(|()| {
                 let effort = direct(system, state, &mut level)?;
                 Ok((Point::of(system, state, next), effort, false))
