@@ -219,6 +219,12 @@ const journeys = {
     await page.waitForFunction(() => document.querySelector("#stop").hidden && document.querySelector("#state").textContent !== "");
     assert.doesNotMatch(await page.textContent("#state"), /unreachable/);
   },
+  async "notes say how long the longest arrows are"(page) {
+    await page.goto(`${lab}#case=space_elbow`);
+    await answered(page);
+    // Its vectors have several components: the longest couple is one of 209.5 N·m.
+    assert.match(await page.textContent("#note"), /Grey is what joints and springs transmit, 30\.1 N and 210 N·m at most/);
+  },
   async "it plays, stops and steps"(page) {
     await page.goto(`${lab}#case=space_joints`);
     await answered(page);
