@@ -8,7 +8,7 @@ import { motion } from "./motion";
 import { path } from "./path";
 import type { Drawn, Kept, Room } from "./room";
 import { table } from "./table";
-import { steady, text } from "./text";
+import { inRadians, steady, text } from "./text";
 
 /** A run that others are compared with. */
 export interface Pin {
@@ -61,7 +61,7 @@ export class Answer {
   }
 
   /** A Campbell diagram with the modes at one of its speeds. */
-  showCampbell(reply: Reply, at: Reply | undefined, speed: number, remark?: string) {
+  showCampbell(reply: Reply, at: Reply | undefined, asked: string, remark?: string) {
     const kept = this.kind === "campbell" ? this.drawn?.kept() : undefined;
     this.clear();
     this.kind = "campbell";
@@ -70,8 +70,11 @@ export class Answer {
     this.room.stage.hidden = at?.results === undefined;
     if (at?.results) this.drawn = this.modes(at, kept);
     this.room.footer.hidden = this.drawn === undefined;
+    // The engine knows every unit of a speed: its modes say at which one they are.
+    const table = at?.results ? moving(at).modes?.table : undefined;
+    const speed = table && (table.speed * inRadians(table["speed-unit"])) / inRadians(unit);
     const found = diagram(of, this.room, speed, (speed) => this.choose(`${speed} ${unit}`));
-    this.room.curves.prepend(found, tag("h2", {}, `Modes at ${text(speed, 3)} ${unit}`));
+    this.room.curves.prepend(found, tag("h2", {}, `Modes at ${speed === undefined ? asked : `${text(speed, 3)} ${unit}`}`));
     this.remark({ ...reply, warnings: [...(reply.warnings ?? []), ...(at?.warnings ?? [])] }, remark);
     if (!at?.results) this.notes.append(tag("p", { class: "failed" }, `There are no modes at this speed: ${at?.message ?? "no reason is given"}`));
   }

@@ -22,6 +22,16 @@ export function written({ written, value, unit, number }: Entry): string {
   return written || !unit || number === null || number === undefined ? plain : `${number} ${unit}`;
 }
 
+/** A kind with the table of its example. */
+export function example(path: string, { name, example }: { name: string; example: string }) {
+  const own = path.split(".").at(-1)!;
+  const table = new RegExp(`(?:^|[\\s{,])${own}\\s*=\\s*(\\{.*)`, "s").exec(example)?.[1];
+  if (!table) return { name, example: `{ kind = "${name}" }` };
+  let depth = 0;
+  const end = [...table].findIndex((c) => (depth += c === "{" ? 1 : c === "}" ? -1 : 0) === 0);
+  return { name, example: table.slice(0, end + 1) };
+}
+
 /** A key in words: `section.second-moment` is the second moment of the section. */
 const word = (key: string) => key.replaceAll("-", " ");
 

@@ -8,14 +8,14 @@ import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
 import { campbell } from "./diagram";
 import { base64, bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
-import { Form, quantity, written } from "./form";
+import { example, Form, quantity, written } from "./form";
 import * as gallery from "./gallery";
 import { Growing } from "./growing";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
+import "./menus";
 import { Room } from "./room";
 import * as save from "./save";
 import { Source } from "./source";
-import { inRadians } from "./text";
 import { warm } from "./stage";
 import { zip } from "./zip";
 
@@ -39,6 +39,8 @@ interface State {
   fresh?: boolean;
   /** The version that the link names. */
   version?: string;
+  /** There is no case: none has been opened, or a link leads nowhere. */
+  none?: boolean;
 }
 
 const room = new Room(element("subtitle"));
@@ -49,21 +51,26 @@ element("answer").after(room.footer);
 const embedded = new URLSearchParams(location.search).has("embed");
 document.body.classList.toggle("embed", embedded);
 
-let state: State = { text: "", files: {}, kind: "run" };
+let state: State = { text: "", files: {}, kind: "run", none: true };
 let entries: Entry[] = [];
-let shown: { kind: Kind; reply: Reply } | undefined;
+/** The answer that is shown, and what it was asked. */
+let shown: { asked: Asked; reply: Reply; modes?: Reply } | undefined;
 let pin: Pin | undefined;
 let version = "";
-/** The diagram whose modes are looked at. */
-let diagram: Reply | undefined;
+/** Counts the texts of the user and the cases that were opened. */
+let revision = 0;
+/** Counts every change of the text and of what is asked of it: an answer to an older number is old. */
+let number = 0;
 
 const growing = new Growing(element("growing"));
 const computer = new Computer({ checked, answered, said, failed, grown: (rows, end) => (rows ? growing.add(rows, end ?? 0) : growing.clear()) });
 const source = new Source(element("text"), (text) => {
-  state.text = text;
-  diagram = undefined;
+  state = { ...state, text, none: false };
   revision += 1;
-  wait(() => change(), 250);
+  able();
+  renewed();
+  clearTimeout(waiting);
+  waiting = window.setTimeout(() => change(), 250);
 });
 const form = new Form(element("form"), (key, value, sliding) => set([`${key.replace(/\[(\d+)\]/g, ".$1")}=${value}`], sliding));
 const answer = new Answer(room, element("notes"), element("values"), (speed) => {
@@ -73,29 +80,29 @@ const answer = new Answer(room, element("notes"), element("values"), (speed) => 
 });
 
 let waiting = 0;
-function wait(act: () => void, milliseconds: number) {
-  clearTimeout(waiting);
-  stale();
-  waiting = window.setTimeout(act, milliseconds);
+
+/** The text or what is asked of it is another; `sliding` says that more will follow. */
+function renewed(sliding = false) {
+  number += 1;
+  element("result").classList.toggle("sliding", sliding);
+  age();
 }
 
 /** An old answer never stands under a new case as if it were its own. */
-function stale() {
-  element("result").classList.add("stale");
-  element("result").setAttribute("aria-busy", "true");
+function age() {
+  const old = shown?.asked.number !== number;
+  element("result").classList.toggle("stale", old);
+  element("result").setAttribute("aria-busy", String(old));
 }
-
-/** Counts the texts of the user and the cases that were opened. */
-let revision = 0;
 
 const asked = (): Asked => ({
   text: state.text,
   files: state.files,
   kind: state.kind,
   revision,
+  number,
   speed: state.speed,
   range: range(),
-  diagram: state.kind === "campbell" ? diagram : undefined,
 });
 
 /** A largest speed, if it is one. */
@@ -110,30 +117,29 @@ function range(): string | undefined {
 
 /** Speeds of the diagram that is shown. */
 function speeds(): string {
-  const of = diagram && campbell(diagram);
-  const unit = of?.["speed-unit"];
-  return range() ?? (of ? `0 ${unit}:${Number(of.speeds[of.speeds.length - 1].toPrecision(3))} ${unit}:31` : "0:10:31");
+  if (shown?.asked.kind !== "campbell") return range() ?? "0:10:31";
+  const { speeds, "speed-unit": unit } = campbell(shown.reply);
+  return range() ?? `0 ${unit}:${Number(speeds[speeds.length - 1].toPrecision(3))} ${unit}:31`;
 }
 
 /** The case or what is asked of it has changed. */
-function change(sliding = false) {
-  stale();
-  computer.want({ ...asked(), sliding });
-  if (!sliding) remember();
+function change() {
+  renewed();
+  computer.want(asked());
+  remember();
 }
 
 /** Sets keys of the case. */
 function set(changes: string[], sliding = false) {
-  stale();
-  diagram = undefined;
+  renewed(sliding);
   computer.want({ ...asked(), set: changes, sliding });
 }
 
-/** The case has been read; whether it can be computed. */
-function checked(reply: Reply, text: string, { revision: of, set, sliding }: Asked): boolean {
+/** The case has been read; what is asked of it, if it can be computed. */
+function checked(reply: Reply, text: string, of: Asked): Asked | undefined {
   // What has been written or opened since is newer.
-  if (of !== revision) return false;
-  if (set) source.text = state.text = text;
+  if (of.revision !== revision) return undefined;
+  if (of.set?.length) source.text = state.text = text;
   const problems = reply.problems ?? [];
   const missing = state.kind === "run" && !state.fresh ? (reply.missing ?? []) : [];
   list([...problems, ...missing]);
@@ -148,15 +154,16 @@ function checked(reply: Reply, text: string, { revision: of, set, sliding }: Ask
   const modal = reply.missing?.length ? state.kind === "run" : state.kind === "modes" || state.kind === "campbell";
   if (state.fresh && modal && problems.length === 0) {
     if (state.kind === "run") state.kind = "modes";
-    state.speed ??= speedOf();
     state.fresh = false;
     present();
     change();
-    return false;
+    return undefined;
   }
   state.fresh = false;
-  if (!sliding) remember();
-  return problems.length === 0 && missing.length === 0;
+  const rotates = state.kind === "modes" || state.kind === "campbell";
+  if (rotates && state.speed === undefined) element<HTMLInputElement>("rotation").value = state.speed = speedOf();
+  if (!of.sliding) remember();
+  return problems.length + missing.length > 0 ? undefined : { ...of, text, set: undefined, speed: state.speed, range: range() };
 }
 
 function name(title: string) {
@@ -185,35 +192,44 @@ function list(problems: Problem[]) {
 }
 
 /** An answer has come. */
-function answered(kind: Kind, reply: Reply, modes?: Reply) {
+function answered(asked: Asked, reply: Reply, modes?: Reply) {
+  shown = { asked, reply, modes };
+  growing.clear();
+  draw();
+}
+
+/** Draws the answer, beside what is pinned. */
+function draw() {
+  if (!shown) return;
+  const { asked, reply, modes } = shown;
   const older = state.version && version && state.version !== version;
   const remark = older ? `The link was made with Flexion ${state.version}; these numbers are of Flexion ${version} and may differ.` : undefined;
   try {
-    if (kind === "campbell") {
-      diagram = reply;
-      const { speeds, "speed-unit": unit } = campbell(reply);
-      element<HTMLInputElement>("most").value ||= (range() ?? `0:${Number(speeds[speeds.length - 1].toPrecision(3))} ${unit}`).split(":")[1];
-      // The speed of the modes may be in another unit than those of the diagram.
-      const at = quantity(state.speed ?? "");
-      const factor = at?.unit ? inRadians(at.unit) / inRadians(unit) : 1;
-      answer.showCampbell(reply, modes, factor * (at?.number ?? 0), remark);
-    } else answer.show(kind, reply, pin, remark);
-    shown = { kind, reply };
-    growing.clear();
-    if (pin) void compare(pin);
-    element("result").classList.remove("stale");
-    element("result").removeAttribute("aria-busy");
-    element("pin").toggleAttribute("disabled", kind !== "run" && !pin);
+    if (asked.kind === "campbell") {
+      const box = element<HTMLInputElement>("most");
+      if (!state.most && document.activeElement !== box) box.value = speeds().split(":")[1];
+      answer.showCampbell(reply, modes, asked.speed ?? "0 rad/s", remark);
+    } else answer.show(asked.kind, reply, pin, remark);
+    if (pin) void compare(pin, asked);
   } catch (error) {
+    shown = undefined;
     failed(`The answer cannot be drawn: ${(error as Error).message}`);
   }
+  age();
+  able();
 }
 
 /** Says what the pinned case has otherwise. */
-async function compare({ text }: Pin) {
-  const set = await computer.difference(text, state.text, state.files).catch(() => undefined);
+async function compare({ text }: Pin, { text: now, files }: Asked) {
+  const set = await computer.difference(text, now, files).catch(() => undefined);
   const note = document.querySelector("#notes .pinned");
   if (note && set?.length && set.length < 6) note.textContent = `Dashed: the pinned answer, with ${set.join(", ")}.`;
+}
+
+/** Without a case there is nothing to compute or to take along, and without a run nothing to pin. */
+function able() {
+  for (const node of all("[data-kind], [data-copy], [data-save]")) node.toggleAttribute("disabled", state.none === true);
+  element("pin").toggleAttribute("disabled", !pin && shown?.asked.kind !== "run");
 }
 
 /** Says how far it is. */
@@ -291,7 +307,7 @@ async function follow() {
   const fragment = location.hash.slice(1);
   if (fragment === written_ && state.text) return;
   written_ = fragment;
-  stale();
+  renewed();
   list([]);
   said("opening …", undefined, "stop");
   following += 1;
@@ -308,9 +324,9 @@ async function follow() {
 
 function refuse(message: string) {
   computer.stop();
-  state = { text: "", files: {}, kind: "run" };
-  [shown, diagram, entries] = [undefined, undefined, []];
-  present();
+  [shown, entries] = [undefined, []];
+  replace({ text: "", files: {}, kind: "run", none: true });
+  renewed();
   form.show(entries);
   source.report([]);
   answer.clear();
@@ -332,12 +348,9 @@ async function open(asked: Link) {
   const own = ++openings;
   computer.stop();
   computer.lifted = false;
-  diagram = undefined;
-  // What is known of the case before comes too late from here on.
-  revision += 1;
   const kind = asked.kind ?? "run";
   if (asked.text !== undefined) {
-    state = { text: asked.text, files: {}, kind, speed: asked.speed, most: largest(asked.most), version: asked.version, fresh: true };
+    replace({ text: asked.text, files: {}, kind, speed: asked.speed, most: largest(asked.most), version: asked.version, fresh: true });
   } else {
     const id = asked.named ?? gallery.first;
     const found = gallery.named(id, asked.run);
@@ -352,17 +365,23 @@ async function open(asked: Link) {
     const speed = asked.speed ?? found.run.speed ?? found.item.speed;
     // Another one was opened in the meantime.
     if (own !== openings) return;
-    state = { text, files, item: found.item, run: found.run, kind: its ?? kind, speed, most: largest(asked.most), version: asked.version, fresh: true };
+    replace({ text, files, item: found.item, run: found.run, kind: its ?? kind, speed, most: largest(asked.most), version: asked.version, fresh: true });
   }
-  present();
   name("");
   change();
 }
 
-/** Shows the state beside the answer. */
-function present() {
+/** Another case: what is known of the one before comes too late from here on. */
+function replace(next: State) {
+  state = next;
   revision += 1;
   source.text = state.text;
+  present();
+}
+
+/** Shows the state beside the answer. */
+function present() {
+  able();
   const runs = state.item?.runs ?? [];
   element("runs").hidden = runs.length < 2;
   const select = element<HTMLSelectElement>("run");
@@ -389,23 +408,9 @@ function tab(which: "form" | "text") {
 }
 
 for (const name of ["form", "text"] as const) element(`tab-${name}`).addEventListener("click", () => tab(name));
-for (const list of all('[role="tablist"]')) {
-  list.addEventListener("keydown", (event) => {
-    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const tabs = [...list.querySelectorAll<HTMLElement>('[role="tab"]')];
-    const at = tabs.indexOf(event.target as HTMLElement);
-    if (!by || at < 0) return;
-    event.preventDefault();
-    event.stopPropagation();
-    const next = tabs[(at + by + tabs.length) % tabs.length];
-    next.focus();
-    next.click();
-  });
-}
 for (const node of all("[data-kind]")) {
   node.addEventListener("click", () => {
     state.kind = node.dataset.kind as Kind;
-    if (state.kind === "modes" || state.kind === "campbell") state.speed ??= speedOf();
     present();
     list([]);
     change();
@@ -427,7 +432,6 @@ element<HTMLInputElement>("most").addEventListener("change", (event) => {
   state.most = largest(box.value);
   if (box.value.trim() && !state.most) tell("The diagram leads up to a speed above zero, as 20 rpm.");
   box.value = state.most ?? "";
-  diagram = undefined;
   change();
 });
 element<HTMLSelectElement>("run").addEventListener("change", (event) => {
@@ -449,11 +453,11 @@ element("open-gallery").addEventListener("click", () => {
 });
 
 element("pin").addEventListener("click", () => {
-  pin = pin ? undefined : shown && { ...shown, text: state.text };
+  pin = pin ? undefined : shown && { kind: shown.asked.kind, reply: shown.reply, text: shown.asked.text };
   element("pin").setAttribute("aria-pressed", String(pin !== undefined));
   element("pin").textContent = pin ? "Pinned" : "Pin";
   if (pin) tell("Pinned. Change the case: both answers are drawn, the pinned one dashed.");
-  else if (shown) answered(shown.kind, shown.reply);
+  else draw();
 });
 
 // The address is that of the case.
@@ -462,30 +466,8 @@ document.querySelector(".skip")!.addEventListener("click", (event) => {
   element("result").focus();
 });
 
-// A menu closes when something in it was chosen, or something else was.
-for (const menu of all("details.menu") as HTMLDetailsElement[]) {
-  document.addEventListener("click", (event) => {
-    const { target } = event as unknown as { target: Node };
-    if (!menu.contains(target) || (target as HTMLElement).matches("div button")) menu.open = false;
-  });
-  menu.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape" || !menu.open) return;
-    menu.open = false;
-    menu.querySelector("summary")!.focus();
-  });
-}
-
 async function put(text: string, what: string) {
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    const box = tag("textarea", { "aria-label": what });
-    box.value = text;
-    document.body.append(box);
-    box.select();
-    document.execCommand("copy");
-    box.remove();
-  }
+  await save.copy(text, what);
   tell(`${what} is copied.`);
 }
 
@@ -554,20 +536,9 @@ async function take(given: File[]) {
   const text = await toml.text();
   if (own !== openings) return;
   computer.stop();
-  state = { text, files, kind: "run", fresh: true };
-  [diagram, computer.lifted] = [undefined, false];
-  present();
+  computer.lifted = false;
+  replace({ text, files, kind: "run", fresh: true });
   change();
-}
-
-/** A kind with the table of its example. */
-function example(path: string, { name, example }: { name: string; example: string }) {
-  const own = path.split(".").at(-1)!;
-  const table = new RegExp(`(?:^|[\\s{,])${own}\\s*=\\s*(\\{.*)`, "s").exec(example)?.[1];
-  if (!table) return { name, example: `{ kind = "${name}" }` };
-  let depth = 0;
-  const end = [...table].findIndex((c) => (depth += c === "{" ? 1 : c === "}" ? -1 : 0) === 0);
-  return { name, example: table.slice(0, end + 1) };
 }
 
 // While the engine comes.

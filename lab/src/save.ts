@@ -1,4 +1,5 @@
 // What can be taken along: picture, film, files, and the case as link, text, command or Python.
+import { tag } from "./curves";
 import type { Drawn, Room } from "./room";
 import { inRadians } from "./text";
 
@@ -9,6 +10,20 @@ export function download(content: Blob, name: string) {
   link.click();
   link.remove();
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** Puts text into the clipboard. */
+export async function copy(text: string, what: string) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const box = tag("textarea", { "aria-label": what });
+    box.value = text;
+    document.body.append(box);
+    box.select();
+    document.execCommand("copy");
+    box.remove();
+  }
 }
 
 /** The picture on the colour of the page. */
