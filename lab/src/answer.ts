@@ -2,7 +2,7 @@
 import { tag } from "./curves";
 import { campbell, diagram } from "./diagram";
 import type { Results } from "./data";
-import { moving, type Kind, type Reply } from "./engine";
+import { moving, unestimated, type Kind, type Reply } from "./engine";
 import { modes } from "./modes";
 import { motion } from "./motion";
 import { path } from "./path";
@@ -24,6 +24,8 @@ const MOST = 50;
 export class Answer {
   private drawn?: Drawn;
   private kind?: Kind;
+  /** What was chosen in the last answer of each kind. */
+  private readonly kept = new Map<Kind, Kept>();
 
   constructor(
     private readonly room: Room,
@@ -38,6 +40,7 @@ export class Answer {
 
   /** Takes away everything. */
   clear() {
+    if (this.kind && this.drawn) this.kept.set(this.kind, this.drawn.kept());
     this.room.clear();
     this.drawn = undefined;
     this.notes.replaceChildren();
@@ -49,8 +52,8 @@ export class Answer {
   show(kind: Kind, reply: Reply, pin?: Pin, remark?: string) {
     const other = pin?.kind === kind ? pin : undefined;
     if (kind === "run" && this.kind === kind && this.again(reply, other)) return this.remark(reply, remark, other);
-    const kept: Kept | undefined = this.kind === kind ? this.drawn?.kept() : undefined;
     this.clear();
+    const kept = this.kept.get(kind);
     this.kind = kind;
     this.room.stage.hidden = false;
     if (kind === "run") this.run(reply, kept, other);
@@ -62,8 +65,8 @@ export class Answer {
 
   /** A Campbell diagram with the modes at one of its speeds. */
   showCampbell(reply: Reply, at: Reply | undefined, asked: string, remark?: string) {
-    const kept = this.kind === "campbell" ? this.drawn?.kept() : undefined;
     this.clear();
+    const kept = this.kept.get("campbell");
     this.kind = "campbell";
     const of = campbell(reply);
     const unit = of["speed-unit"];
@@ -129,7 +132,9 @@ export class Answer {
     const end = reply.summary?.end_time;
     if (trust?.estimated && trust.until !== null && trust.until !== undefined && end !== undefined && trust.until < end) {
       add("doubt", `Errors are known and small until ${steady(trust.until)} s${trust.column ? `, then that of ${trust.column} grows` : ""}. What lies behind is shaded.`);
-    } else if (trust && trust.estimated === false && trust.reason) add("dim", `Errors are not known: ${trust.reason}.`);
+    } else if (trust && trust.estimated === false && trust.reason) {
+      add("dim", `Errors are not known: ${unestimated(reply) ? "it takes more work to estimate them than is done without a click" : trust.reason}.`);
+    }
     const warnings = [...new Set([...(reply.warnings ?? []), ...(reply.summary?.warnings ?? [])])];
     if (warnings.length === 0) return;
     const shown = warnings.slice(0, MOST).map((warning) => tag("li", {}, String(warning)));

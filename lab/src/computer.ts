@@ -1,7 +1,7 @@
 // What is computed when: the newest case at once, its errors when it rests, nothing long before a click.
 import type { Stored } from "./data";
 import { nice } from "./text";
-import { Lane, load, Stopped, type Kind, type Reply, type Request } from "./engine";
+import { Lane, load, Stopped, unestimated, type Kind, type Reply, type Request } from "./engine";
 
 export interface Asked {
   text: string;
@@ -38,6 +38,8 @@ const PER_SECOND = 1e6;
 const MOST = 1e9;
 /** What is asked without a click is ended after this time [s], whatever was counted. */
 const PATIENCE = 15;
+/** Reading a case that takes longer than this is told [ms]. */
+const SOON = 300;
 /** An older request that takes longer than this is not waited for [s]. */
 const SHORT = 0.25;
 
@@ -64,6 +66,9 @@ export class Computer {
   private perSecond = PER_SECOND;
   /** The last Campbell diagram, and what was asked for it. */
   private diagram?: { asked: Asked; lifted: boolean; reply: Reply };
+  /** Counts what was stopped. */
+  private stops = 0;
+  private reading = false;
   /** Ends the pause behind an answer under a slider. */
   private wake?: () => void;
 
@@ -92,6 +97,7 @@ export class Computer {
     const kept = before.filter((change) => !keys.has(change.split("=")[0]));
     this.wanted = { ...asked, set: [...kept, ...(asked.set ?? [])] };
     if (this.runner.busy > SHORT) this.runner.stop();
+    if (this.reading && this.quick.busy > SHORT) this.quick.stop();
     this.wake?.();
     if (!this.running) void this.pump();
   }
@@ -103,8 +109,10 @@ export class Computer {
 
   /** Ends what is computed. */
   stop(words?: string) {
+    this.stops += 1;
     this.wanted = undefined;
     this.runner.stop();
+    if (this.reading) this.quick.stop();
     if (words) this.told.said(words, undefined, "compute");
   }
 
@@ -147,7 +155,9 @@ export class Computer {
   }
 
   private fell(error: unknown) {
-    if (error instanceof Stopped && !error.fell) return;
+    if (error instanceof Stopped && error.why === "stopped") return;
+    // Time alone does not make a case too large for a click.
+    if (error instanceof Stopped && error.why === "late" && !this.lifted) return this.told.said(`This takes more than ${PATIENCE} s.`, undefined, "compute");
     const what = error instanceof Error ? error.message : String(error);
     this.told.failed(`The engine stopped: ${what}. It has been started anew; change the case and it computes again.`);
   }
@@ -170,9 +180,11 @@ export class Computer {
       }
       text = reply.case;
     }
-    const reply = await this.quick.ask({ do: "check", case: text, files, limits: this.limits() }, PATIENCE);
-    if (reply.status === "given-up") return void this.fine(reply);
+    const { stops } = this;
+    const reply = await this.check(text, files);
+    if (stops !== this.stops) return;
     const ready = this.told.checked(reply, text, asked);
+    if (reply.status === "given-up") return void this.fine(reply);
     if (!ready) return;
     // A newer text is read first; under a slider every answer that is short is shown.
     if (this.wanted && !asked.sliding) return;
@@ -184,8 +196,21 @@ export class Computer {
     await this.answer(ready);
   }
 
+  /** Reads the case; where that takes long it is told, and can be stopped. */
+  private async check(text: string, files: Record<string, string>): Promise<Reply> {
+    this.reading = true;
+    const telling = setTimeout(() => this.told.said("reading the case …", undefined, "stop"), SOON);
+    try {
+      return await this.quick.ask({ do: "check", case: text, files, limits: this.limits() }, this.lifted ? Infinity : PATIENCE);
+    } finally {
+      clearTimeout(telling);
+      this.reading = false;
+    }
+  }
+
   private async answer(asked: Asked) {
     const { kind } = asked;
+    const { stops } = this;
     this.told.said("computing …", undefined, "stop");
     let first: Reply;
     let modes: Reply | undefined;
@@ -205,13 +230,13 @@ export class Computer {
     this.told.said("");
     if (kind !== "run" || this.wanted) return;
     if (asked.sliding) await Promise.race([pause(300), new Promise<void>((resolve) => (this.wake = resolve))]);
-    if (this.wanted) return;
+    if (this.wanted || stops !== this.stops) return;
     this.told.said("estimating the error …", undefined, "stop");
     const whole = await this.ask({ ...this.request(asked), errors: true });
     if (this.wanted) return;
     // Where the companions took too long, the run stands without a band.
     if (whole.results && whole.status !== "given-up") this.told.answered(asked, whole);
-    if (whole.status === "given-up") this.offer("The error takes longer to estimate.", whole);
+    if (whole.status === "given-up" || unestimated(whole)) this.offer("The error takes longer to estimate.", whole);
     else this.told.said("");
   }
 

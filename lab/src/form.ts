@@ -18,7 +18,7 @@ export function quantity(value: string): { number: number; unit: string } | unde
 
 /** A value as it stands in the case, or with its unit in SI; without the quotes of a text. */
 export function written({ written, value, unit, number }: Entry): string {
-  const plain = (written ?? value).trim().replace(/^(["'])(.*)\1$/s, "$2");
+  const plain = (written ?? value).trim().replace(/^("""|'''|""|''|"|')\r?\n?(.*)\1$/s, "$2");
   return written || !unit || number === null || number === undefined ? plain : `${number} ${unit}`;
 }
 

@@ -84,6 +84,7 @@ let waiting = 0;
 /** The text or what is asked of it is another; `sliding` says that more will follow. */
 function renewed(sliding = false) {
   number += 1;
+  halted = false;
   element("result").classList.toggle("sliding", sliding);
   age();
 }
@@ -149,6 +150,10 @@ function checked(reply: Reply, text: string, of: Asked): Asked | undefined {
     form.show(entries);
     const title = entries.find(({ path }) => path === "title");
     name(title ? written(title) : "");
+  } else if (state.fresh) {
+    // Nothing of the case before stands beside one that cannot be read.
+    nothing();
+    name("");
   }
   // A case without a run has modes; those of a case are at its own speed, which is known now.
   const modal = reply.missing?.length ? state.kind === "run" : state.kind === "modes" || state.kind === "campbell";
@@ -159,7 +164,7 @@ function checked(reply: Reply, text: string, of: Asked): Asked | undefined {
     change();
     return undefined;
   }
-  state.fresh = false;
+  if (reply.tables) state.fresh = false;
   const rotates = state.kind === "modes" || state.kind === "campbell";
   if (rotates && state.speed === undefined) element<HTMLInputElement>("rotation").value = state.speed = speedOf();
   if (!of.sliding) remember();
@@ -234,7 +239,8 @@ function able() {
 
 /** Says how far it is. */
 function said(words: string, share?: number, act?: "compute" | "stop") {
-  element("state").textContent = words;
+  // A number with hundreds of digits says no more than its size.
+  element("state").textContent = words.replace(/\d{25,}(\.\d+)?/g, (digits) => String(Number(digits)));
   const progress = element<HTMLProgressElement>("progress");
   progress.hidden = share === undefined;
   if (share !== undefined) progress.value = share;
@@ -263,19 +269,23 @@ function tell(words: string) {
 /** What was last put into the address. */
 let written_ = "";
 let remembering = 0;
+/** Counts what is to be written there. */
+let addresses = 0;
 /** Links that are being opened. */
 let following = 0;
+/** Whether the opening of the link in the address was stopped. */
+let halted = false;
 /** Whether the address leads elsewhere than to what is shown. */
 const leads = () => following > 0 || location.hash.slice(1) !== written_;
 
 /** The address says what is shown, if it leads nowhere else by then. */
 function remember(push = false) {
   clearTimeout(remembering);
+  const own = ++addresses;
   const act = async () => {
-    const before = written_;
     if (leads()) return;
     const fragment = await link().catch(() => "");
-    if (fragment === written_ || before !== written_ || leads()) return;
+    if (fragment === written_ || own !== addresses || leads()) return;
     written_ = fragment;
     const address = `${location.pathname}${location.search}${fragment && `#${fragment}`}`;
     history[push ? "pushState" : "replaceState"](null, "", address);
@@ -295,28 +305,33 @@ async function link(): Promise<string> {
     const set = await computer.difference(state.text, changes, state.files);
     if (set) return write({ ...common, named: item.item.id, run, set });
   }
-  const named = Object.keys(state.files).filter((name) => state.text.includes(name));
+  const named = needed();
   if (named.length > 0) throw new Error(`A link cannot carry the files of this case (${named.join(", ")}): save the case as a file and pass that on.`);
   const fragment = await write({ ...common, text: state.text, set: [] });
   if (fragment.length > LONGEST || state.text.length > LARGEST) throw new Error("The case is too long for a link: save it as a file and pass that on.");
   return fragment;
 }
 
+/** Files that the case names. */
+const needed = () => Object.keys(state.files).filter((name) => state.text.includes(name));
+
 /** Shows what the address says. */
 async function follow() {
   const fragment = location.hash.slice(1);
   if (fragment === written_ && state.text) return;
   written_ = fragment;
+  addresses += 1;
   renewed();
   list([]);
   said("opening …", undefined, "stop");
   following += 1;
+  // A newer address is followed instead, and after Stop none.
+  const wanted = () => written_ === fragment && !halted;
   try {
     const asked = await read(fragment);
-    // A newer address is followed instead.
-    if (written_ === fragment) await open(asked);
+    if (wanted()) await open(asked);
   } catch (error) {
-    if (written_ === fragment) refuse((error as Error).message);
+    if (wanted()) refuse((error as Error).message);
   } finally {
     following -= 1;
   }
@@ -324,16 +339,22 @@ async function follow() {
 
 function refuse(message: string) {
   computer.stop();
-  [shown, entries] = [undefined, []];
+  nothing();
   replace({ text: "", files: {}, kind: "run", none: true });
   renewed();
-  form.show(entries);
   source.report([]);
-  answer.clear();
-  room.stage.hidden = true;
   name("This link cannot be opened");
   element("problems").replaceChildren(tag("li", {}, message, " ", again()));
   said("");
+}
+
+/** Takes away what is known of a case. */
+function nothing() {
+  [shown, entries] = [undefined, []];
+  form.show(entries);
+  answer.clear();
+  room.stage.hidden = true;
+  able();
 }
 
 /** A way on from a link that leads nowhere. */
@@ -441,10 +462,18 @@ element<HTMLSelectElement>("run").addEventListener("change", (event) => {
   void open({ named: found.item.id, run: found.run.name, set: [], ...keep }).then(() => remember(true), (error) => failed(error.message));
 });
 element("compute").addEventListener("click", () => {
+  if (halted) {
+    written_ = "#";
+    return void follow();
+  }
   computer.lifted = true;
   change();
 });
-element("stop").addEventListener("click", () => computer.stop("Stopped. Change the case or press Compute to go on."));
+element("stop").addEventListener("click", () => {
+  halted = following > 0;
+  if (halted) openings += 1;
+  computer.stop(halted ? "Stopped. Press Compute to open the link." : "Stopped. Change the case or press Compute to go on.");
+});
 
 const dialog = element<HTMLDialogElement>("gallery");
 element("open-gallery").addEventListener("click", () => {
@@ -483,7 +512,7 @@ const copies: Record<string, () => Promise<void>> = {
     await put(save.command(state.kind, difference ? found.path : "case.toml", difference ?? [], state.speed, speeds()), "The command");
     if (!difference) tell("The command is copied. It takes the case from case.toml: save the case as that.");
   },
-  python: async () => put(save.python(state.kind, state.text, state.speed), "The Python text"),
+  python: async () => put(save.python(state.kind, state.text, state.speed, speeds(), needed()), "The Python text"),
 };
 for (const node of all("[data-copy]")) {
   node.addEventListener("click", () => copies[node.dataset.copy!]().catch((error) => tell(error.message)));

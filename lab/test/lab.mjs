@@ -6,6 +6,7 @@ import { join, resolve } from "node:path";
 import { deflateRawSync } from "node:zlib";
 import { faint } from "./contrast.mjs";
 import { answered, launch, opened, serve } from "./open.mjs";
+import { standing } from "./standing.mjs";
 
 const option = (name) => {
   const at = process.argv.indexOf(name);
@@ -487,6 +488,7 @@ const journeys = {
     await page.goto(`${lab}#c=${deflateRawSync(source(noise.repeat(2).split("").reverse().join("x"))).toString("base64url")}`);
     await page.waitForFunction(() => /characters; 65536 is the most/.test(document.querySelector("#problems").textContent));
   },
+  ...standing({ lab, slide, edit, fragment }),
 };
 
 /** Whether a journey succeeds. */
