@@ -225,10 +225,10 @@ function draw() {
 }
 
 /** Says what the pinned case has otherwise. */
-async function compare({ text }: Pin, { text: now, files }: Asked) {
-  const set = await computer.difference(text, now, files).catch(() => undefined);
+async function compare({ text }: Pin, of: Asked) {
+  const set = await computer.difference(text, of.text, of.files).catch(() => undefined);
   const note = document.querySelector("#notes .pinned");
-  if (note && set?.length && set.length < 6) note.textContent = `Dashed: the pinned answer, with ${set.join(", ")}.`;
+  if (note && shown?.asked === of && set?.length && set.length < 6) note.textContent = `Dashed: the pinned answer, with ${set.join(", ")}.`;
 }
 
 /** Without a case there is nothing to compute or to take along, and without a run nothing to pin. */
@@ -269,8 +269,8 @@ function tell(words: string) {
 /** What was last put into the address. */
 let written_ = "";
 let remembering = 0;
-/** Counts what is to be written there. */
-let addresses = 0;
+/** Counts what is to be written there, and whether it is a new entry of the history. */
+let [addresses, pushing] = [0, false];
 /** Links that are being opened. */
 let following = 0;
 /** Whether the opening of the link in the address was stopped. */
@@ -282,13 +282,15 @@ const leads = () => following > 0 || location.hash.slice(1) !== written_;
 function remember(push = false) {
   clearTimeout(remembering);
   const own = ++addresses;
+  pushing ||= push;
   const act = async () => {
     if (leads()) return;
     const fragment = await link().catch(() => "");
     if (fragment === written_ || own !== addresses || leads()) return;
     written_ = fragment;
     const address = `${location.pathname}${location.search}${fragment && `#${fragment}`}`;
-    history[push ? "pushState" : "replaceState"](null, "", address);
+    history[pushing ? "pushState" : "replaceState"](null, "", address);
+    pushing = false;
   };
   if (push) void act();
   else remembering = window.setTimeout(act, 300);
@@ -320,7 +322,7 @@ async function follow() {
   const fragment = location.hash.slice(1);
   if (fragment === written_ && state.text) return;
   written_ = fragment;
-  addresses += 1;
+  [addresses, pushing] = [addresses + 1, false];
   renewed();
   list([]);
   said("opening …", undefined, "stop");

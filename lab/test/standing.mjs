@@ -26,7 +26,7 @@ async function copied(page, what) {
 
 export const standing = ({ lab, slide, edit, fragment }) => ({
   async "an old answer stays faded until its own comes"(page) {
-    for (const wait of [0, 40, 100]) {
+    for (const wait of [0, 40]) {
       await page.goto("about:blank");
       await page.goto(`${lab}#case=p1_spin_up_4`);
       await answered(page);
@@ -82,7 +82,7 @@ export const standing = ({ lab, slide, edit, fragment }) => ({
     await page.waitForTimeout(300);
     await answered(page);
     const soft = await picture();
-    for (const wait of [260, 330, 400, 550]) {
+    for (const wait of [300, 400, 550]) {
       await edit(page, "7 GPa", "700 GPa");
       await page.waitForTimeout(wait);
       await edit(page, "700 GPa", "7 GPa");
@@ -115,7 +115,7 @@ export const standing = ({ lab, slide, edit, fragment }) => ({
       const later = window.setTimeout;
       window.setTimeout = (act, time, ...rest) => later(act, time === 15_000 ? 20 : time, ...rest);
     });
-    await put(page, "run.duration", "40 s");
+    await put(page, "run.duration", "19 s");
     await page.waitForFunction(() => /takes more than 15 s/.test(document.querySelector("#state").textContent));
     assert.ok(await page.locator("#compute").isVisible(), "a click lifts the limit");
     await page.click("#compute");
