@@ -2,13 +2,13 @@
 import { tag } from "./curves";
 import { campbell, diagram } from "./diagram";
 import type { Results } from "./data";
-import { moving, type Kind, type Reply } from "./engine";
+import { moving, unestimated, type Kind, type Reply } from "./engine";
 import { modes } from "./modes";
 import { motion } from "./motion";
 import { path } from "./path";
 import type { Drawn, Kept, Room } from "./room";
 import { table } from "./table";
-import { steady, text } from "./text";
+import { inRadians, steady, text } from "./text";
 
 /** A run that others are compared with. */
 export interface Pin {
@@ -24,6 +24,8 @@ const MOST = 50;
 export class Answer {
   private drawn?: Drawn;
   private kind?: Kind;
+  /** What was chosen in the last answer of each kind. */
+  private readonly kept = new Map<Kind, Kept>();
 
   constructor(
     private readonly room: Room,
@@ -38,6 +40,7 @@ export class Answer {
 
   /** Takes away everything. */
   clear() {
+    if (this.kind && this.drawn) this.kept.set(this.kind, this.drawn.kept());
     this.room.clear();
     this.drawn = undefined;
     this.notes.replaceChildren();
@@ -49,8 +52,8 @@ export class Answer {
   show(kind: Kind, reply: Reply, pin?: Pin, remark?: string) {
     const other = pin?.kind === kind ? pin : undefined;
     if (kind === "run" && this.kind === kind && this.again(reply, other)) return this.remark(reply, remark, other);
-    const kept: Kept | undefined = this.kind === kind ? this.drawn?.kept() : undefined;
     this.clear();
+    const kept = this.kept.get(kind);
     this.kind = kind;
     this.room.stage.hidden = false;
     if (kind === "run") this.run(reply, kept, other);
@@ -61,17 +64,20 @@ export class Answer {
   }
 
   /** A Campbell diagram with the modes at one of its speeds. */
-  showCampbell(reply: Reply, at: Reply | undefined, speed: number, remark?: string) {
-    const kept = this.kind === "campbell" ? this.drawn?.kept() : undefined;
+  showCampbell(reply: Reply, at: Reply | undefined, asked: string, remark?: string) {
     this.clear();
+    const kept = this.kept.get("campbell");
     this.kind = "campbell";
     const of = campbell(reply);
     const unit = of["speed-unit"];
     this.room.stage.hidden = at?.results === undefined;
     if (at?.results) this.drawn = this.modes(at, kept);
     this.room.footer.hidden = this.drawn === undefined;
+    // The engine knows every unit of a speed: its modes say at which one they are.
+    const table = at?.results ? moving(at).modes?.table : undefined;
+    const speed = table && (table.speed * inRadians(table["speed-unit"])) / inRadians(unit);
     const found = diagram(of, this.room, speed, (speed) => this.choose(`${speed} ${unit}`));
-    this.room.curves.prepend(found, tag("h2", {}, `Modes at ${text(speed, 3)} ${unit}`));
+    this.room.curves.prepend(found, tag("h2", {}, `Modes at ${speed === undefined ? asked : `${text(speed, 3)} ${unit}`}`));
     this.remark({ ...reply, warnings: [...(reply.warnings ?? []), ...(at?.warnings ?? [])] }, remark);
     if (!at?.results) this.notes.append(tag("p", { class: "failed" }, `There are no modes at this speed: ${at?.message ?? "no reason is given"}`));
   }
@@ -126,7 +132,9 @@ export class Answer {
     const end = reply.summary?.end_time;
     if (trust?.estimated && trust.until !== null && trust.until !== undefined && end !== undefined && trust.until < end) {
       add("doubt", `Errors are known and small until ${steady(trust.until)} s${trust.column ? `, then that of ${trust.column} grows` : ""}. What lies behind is shaded.`);
-    } else if (trust && trust.estimated === false && trust.reason) add("dim", `Errors are not known: ${trust.reason}.`);
+    } else if (trust && trust.estimated === false && trust.reason) {
+      add("dim", `Errors are not known: ${unestimated(reply) ? "it takes more work to estimate them than is done without a click" : trust.reason}.`);
+    }
     const warnings = [...new Set([...(reply.warnings ?? []), ...(reply.summary?.warnings ?? [])])];
     if (warnings.length === 0) return;
     const shown = warnings.slice(0, MOST).map((warning) => tag("li", {}, String(warning)));

@@ -1,7 +1,7 @@
 // What is computed when: the newest case at once, its errors when it rests, nothing long before a click.
 import type { Stored } from "./data";
 import { nice } from "./text";
-import { Lane, load, Stopped, type Kind, type Reply, type Request } from "./engine";
+import { Lane, load, Stopped, unestimated, type Kind, type Reply, type Request } from "./engine";
 
 export interface Asked {
   text: string;
@@ -11,19 +11,19 @@ export interface Asked {
   kind: Kind;
   /** Number of the text that it is about: another case or another text of the user has another. */
   revision: number;
+  /** Number of what is asked: every change of the text or of what is asked of it has another. */
+  number: number;
   speed?: string;
   /** Speeds of a Campbell diagram. */
   range?: string;
-  /** A Campbell diagram of this case that there is already. */
-  diagram?: Reply;
   /** More of the same will follow at once. */
   sliding?: boolean;
 }
 
 interface Told {
-  /** Whether the case can be computed. */
-  checked(reply: Reply, text: string, asked: Asked): boolean;
-  answered(kind: Kind, reply: Reply, modes?: Reply): void;
+  /** The case has been read; what is asked of it, if it can be computed. */
+  checked(reply: Reply, text: string, asked: Asked): Asked | undefined;
+  answered(asked: Asked, reply: Reply, modes?: Reply): void;
   said(words: string, share?: number, act?: "compute" | "stop"): void;
   failed(words: string): void;
   /** Rows of a run that is not done, which ends at a time; without rows another run begins. */
@@ -38,6 +38,8 @@ const PER_SECOND = 1e6;
 const MOST = 1e9;
 /** What is asked without a click is ended after this time [s], whatever was counted. */
 const PATIENCE = 15;
+/** Reading a case that takes longer than this is told [ms]. */
+const SOON = 300;
 /** An older request that takes longer than this is not waited for [s]. */
 const SHORT = 0.25;
 
@@ -62,6 +64,11 @@ export class Computer {
   private present?: Asked;
   private running = false;
   private perSecond = PER_SECOND;
+  /** The last Campbell diagram, and what was asked for it. */
+  private diagram?: { asked: Asked; lifted: boolean; reply: Reply };
+  /** Counts what was stopped. */
+  private stops = 0;
+  private reading = false;
   /** Ends the pause behind an answer under a slider. */
   private wake?: () => void;
 
@@ -85,11 +92,12 @@ export class Computer {
     // What earlier ones were to change is changed too.
     const same = (one?: Asked) => (one?.revision === asked.revision ? one : undefined);
     const [present, wanted] = [same(this.present), same(this.wanted)];
-    const before = asked.set ? [...((present?.text === asked.text && present?.set) || []), ...(wanted?.set ?? [])] : [];
+    const before = [...((present?.text === asked.text && present?.set) || []), ...(wanted?.set ?? [])];
     const keys = new Set(asked.set?.map((change) => change.split("=")[0]));
     const kept = before.filter((change) => !keys.has(change.split("=")[0]));
-    this.wanted = { ...asked, set: asked.set && [...kept, ...asked.set] };
+    this.wanted = { ...asked, set: [...kept, ...(asked.set ?? [])] };
     if (this.runner.busy > SHORT) this.runner.stop();
+    if (this.reading && this.quick.busy > SHORT) this.quick.stop();
     this.wake?.();
     if (!this.running) void this.pump();
   }
@@ -101,8 +109,10 @@ export class Computer {
 
   /** Ends what is computed. */
   stop(words?: string) {
+    this.stops += 1;
     this.wanted = undefined;
     this.runner.stop();
+    if (this.reading) this.quick.stop();
     if (words) this.told.said(words, undefined, "compute");
   }
 
@@ -145,7 +155,9 @@ export class Computer {
   }
 
   private fell(error: unknown) {
-    if (error instanceof Stopped && !error.fell) return;
+    if (error instanceof Stopped && error.why === "stopped") return;
+    // Time alone does not make a case too large for a click.
+    if (error instanceof Stopped && error.why === "late" && !this.lifted) return this.told.said(`This takes more than ${PATIENCE} s.`, undefined, "compute");
     const what = error instanceof Error ? error.message : String(error);
     this.told.failed(`The engine stopped: ${what}. It has been started anew; change the case and it computes again.`);
   }
@@ -159,7 +171,7 @@ export class Computer {
 
   private async one(asked: Asked) {
     let { text } = asked;
-    const { files, set, kind } = asked;
+    const { files, set } = asked;
     if (set?.length) {
       const reply = await this.quick.ask({ do: "change", case: text, files, set, limits: this.limits(false) }, PATIENCE);
       if (reply.case === undefined) {
@@ -168,34 +180,49 @@ export class Computer {
       }
       text = reply.case;
     }
-    const reply = await this.quick.ask({ do: "check", case: text, files, limits: this.limits() }, PATIENCE);
+    const { stops } = this;
+    const reply = await this.check(text, files);
+    if (stops !== this.stops) return;
+    const ready = this.told.checked(reply, text, asked);
     if (reply.status === "given-up") return void this.fine(reply);
-    if (!this.told.checked(reply, text, asked)) return;
+    if (!ready) return;
     // A newer text is read first; under a slider every answer that is short is shown.
     if (this.wanted && !asked.sliding) return;
-    if (!this.lifted && kind === "run" && (reply.work ?? 0) > SECONDS * this.perSecond) {
+    if (!this.lifted && ready.kind === "run" && (reply.work ?? 0) > SECONDS * this.perSecond) {
       const seconds = Math.ceil((reply.work ?? 0) / this.perSecond);
       this.told.said(`This takes some ${seconds} s or more.`, undefined, "compute");
       return;
     }
-    await this.answer({ ...asked, text, set: undefined });
+    await this.answer(ready);
+  }
+
+  /** Reads the case; where that takes long it is told, and can be stopped. */
+  private async check(text: string, files: Record<string, string>): Promise<Reply> {
+    this.reading = true;
+    const telling = setTimeout(() => this.told.said("reading the case …", undefined, "stop"), SOON);
+    try {
+      return await this.quick.ask({ do: "check", case: text, files, limits: this.limits() }, this.lifted ? Infinity : PATIENCE);
+    } finally {
+      clearTimeout(telling);
+      this.reading = false;
+    }
   }
 
   private async answer(asked: Asked) {
     const { kind } = asked;
+    const { stops } = this;
     this.told.said("computing …", undefined, "stop");
     let first: Reply;
     let modes: Reply | undefined;
     if (kind === "campbell") {
-      const range = asked.range ?? (await this.range(asked));
-      first = asked.diagram ?? (await this.ask(this.request({ ...asked, range })));
+      first = await this.campbell(asked);
       if (!this.fine(first)) return;
       modes = await this.ask({ ...this.request({ ...asked, kind: "modes" }), count: 6 });
     } else {
       first = await this.ask({ ...this.request(asked), ...(kind === "run" && { errors: false, rows: true }) });
       if (!this.fine(first)) return;
     }
-    this.told.answered(kind, first, modes);
+    this.told.answered(asked, first, modes);
     if (first.status === "given-up") {
       this.offer("This is as far as two seconds of work lead.", first);
       return;
@@ -203,14 +230,24 @@ export class Computer {
     this.told.said("");
     if (kind !== "run" || this.wanted) return;
     if (asked.sliding) await Promise.race([pause(300), new Promise<void>((resolve) => (this.wake = resolve))]);
-    if (this.wanted) return;
+    if (this.wanted || stops !== this.stops) return;
     this.told.said("estimating the error …", undefined, "stop");
     const whole = await this.ask({ ...this.request(asked), errors: true });
     if (this.wanted) return;
     // Where the companions took too long, the run stands without a band.
-    if (whole.results && whole.status !== "given-up") this.told.answered(kind, whole);
-    if (whole.status === "given-up") this.offer("The error takes longer to estimate.", whole);
+    if (whole.results && whole.status !== "given-up") this.told.answered(asked, whole);
+    if (whole.status === "given-up" || unestimated(whole)) this.offer("The error takes longer to estimate.", whole);
     else this.told.said("");
+  }
+
+  /** The Campbell diagram: another speed of its modes needs no other diagram. */
+  private async campbell(asked: Asked): Promise<Reply> {
+    const { diagram, lifted } = this;
+    const same = (one: Asked) => one.text === asked.text && one.files === asked.files && one.range === asked.range;
+    if (diagram && diagram.lifted === lifted && same(diagram.asked)) return diagram.reply;
+    const reply = await this.ask(this.request({ ...asked, range: asked.range ?? (await this.range(asked)) }));
+    this.diagram = reply.results ? { asked, lifted, reply } : undefined;
+    return reply;
   }
 
   /** Speeds up to twice the lowest frequency, where the case says no speed. */

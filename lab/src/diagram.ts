@@ -28,7 +28,8 @@ export function campbell({ results, summary, moves }: Reply): Campbell {
 
 const HEIGHT = 300;
 
-export function diagram(found: Campbell, room: Room, speed: number, choose: (speed: number) => void): HTMLElement {
+/** Draws the diagram, with a line at a speed, if that is known. */
+export function diagram(found: Campbell, room: Room, speed: number | undefined, choose: (speed: number) => void): HTMLElement {
   const { speeds } = found;
   const frequencies = found.modes.map(({ frequency }) => frequency);
   const top = (of: Float64Array) => Math.max(0, ...of.filter(Number.isFinite));
@@ -115,12 +116,13 @@ export function diagram(found: Campbell, room: Room, speed: number, choose: (spe
     if (!by) return;
     event.preventDefault();
     event.stopPropagation();
-    const x = limit(speed + (by * (high - low)) / 50);
+    const x = limit((speed ?? low) + (by * (high - low)) / 50);
     mark(x);
     choose(Number(x.toPrecision(3)));
   });
   sized(node, plot, HEIGHT, room.signal);
-  new ResizeObserver(() => mark(speed)).observe(over);
+  line.hidden = speed === undefined;
+  new ResizeObserver(() => mark(speed ?? low)).observe(over);
   const about = `Click in the diagram to see the modes at that speed. Dashed lines kΩ: where a curve crosses one, k impulses a revolution excite that mode.`;
   return tag("div", {}, node, every, tag("p", { class: "caption" }, about));
 }

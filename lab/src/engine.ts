@@ -102,11 +102,14 @@ interface Column {
 /** Results of a run or of modes, as `flexion view` has them. */
 export const moving = (reply: Reply) => reply.results as Results;
 
-/** A request was stopped, or its worker fell. */
+/** Whether a run is whole, and the work was limited before its errors were known. */
+export const unestimated = ({ status, message }: Reply) => status !== "given-up" && (message?.startsWith("given up at") ?? false);
+
+/** A request was stopped, its worker fell, or it took too long. */
 export class Stopped extends Error {
   constructor(
     message: string,
-    readonly fell: boolean,
+    readonly why: "stopped" | "fell" | "late",
   ) {
     super(message);
   }
@@ -146,12 +149,12 @@ export class Lane {
   }
 
   /** Ends the present request. */
-  stop(message = "stopped", fell = false) {
+  stop(message = "stopped", why: Stopped["why"] = "stopped") {
     const stopping = this.stopping;
     if (!stopping) return;
     this.worker?.terminate();
     this.worker = undefined;
-    stopping(new Stopped(message, fell));
+    stopping(new Stopped(message, why));
   }
 
   /** Ends the worker. */
@@ -169,22 +172,22 @@ export class Lane {
     }
     const worker = this.worker;
     this.since = performance.now();
-    const limit = patience < Infinity ? setTimeout(() => this.stop("it took too long", true), 1000 * patience) : undefined;
+    const limit = patience < Infinity ? setTimeout(() => this.stop("it took too long", "late"), 1000 * patience) : undefined;
     try {
       return await new Promise<Reply>((resolve, reject) => {
         this.stopping = reject;
         worker.onerror = (event) => {
           event.preventDefault();
-          this.stop(event.message || "the worker could not be started", true);
+          this.stop(event.message || "the worker could not be started", "fell");
         };
         worker.onmessage = ({ data }: MessageEvent<{ progress?: string; reply?: string; trap?: string; bytes?: number }>) => {
           if (data.progress !== undefined) progress?.(data.progress);
-          else if (data.trap !== undefined) this.stop(data.trap, true);
+          else if (data.trap !== undefined) this.stop(data.trap, "fell");
           else {
             try {
               resolve(JSON.parse(data.reply!));
             } catch {
-              reject(new Stopped("the engine's reply cannot be read", true));
+              reject(new Stopped("the engine's reply cannot be read", "fell"));
             }
             if (data.bytes! > KEPT) {
               worker.terminate();

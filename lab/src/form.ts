@@ -18,8 +18,18 @@ export function quantity(value: string): { number: number; unit: string } | unde
 
 /** A value as it stands in the case, or with its unit in SI; without the quotes of a text. */
 export function written({ written, value, unit, number }: Entry): string {
-  const plain = (written ?? value).trim().replace(/^(["'])(.*)\1$/s, "$2");
+  const plain = (written ?? value).trim().replace(/^("""|'''|""|''|"|')\r?\n?(.*)\1$/s, "$2");
   return written || !unit || number === null || number === undefined ? plain : `${number} ${unit}`;
+}
+
+/** A kind with the table of its example. */
+export function example(path: string, { name, example }: { name: string; example: string }) {
+  const own = path.split(".").at(-1)!;
+  const table = new RegExp(`(?:^|[\\s{,])${own}\\s*=\\s*(\\{.*)`, "s").exec(example)?.[1];
+  if (!table) return { name, example: `{ kind = "${name}" }` };
+  let depth = 0;
+  const end = [...table].findIndex((c) => (depth += c === "{" ? 1 : c === "}" ? -1 : 0) === 0);
+  return { name, example: table.slice(0, end + 1) };
 }
 
 /** A key in words: `section.second-moment` is the second moment of the section. */

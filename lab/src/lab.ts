@@ -8,14 +8,14 @@ import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
 import { campbell } from "./diagram";
 import { base64, bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
-import { Form, quantity, written } from "./form";
+import { example, Form, quantity, written } from "./form";
 import * as gallery from "./gallery";
 import { Growing } from "./growing";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
+import "./menus";
 import { Room } from "./room";
 import * as save from "./save";
 import { Source } from "./source";
-import { inRadians } from "./text";
 import { warm } from "./stage";
 import { zip } from "./zip";
 
@@ -39,6 +39,8 @@ interface State {
   fresh?: boolean;
   /** The version that the link names. */
   version?: string;
+  /** There is no case: none has been opened, or a link leads nowhere. */
+  none?: boolean;
 }
 
 const room = new Room(element("subtitle"));
@@ -49,21 +51,26 @@ element("answer").after(room.footer);
 const embedded = new URLSearchParams(location.search).has("embed");
 document.body.classList.toggle("embed", embedded);
 
-let state: State = { text: "", files: {}, kind: "run" };
+let state: State = { text: "", files: {}, kind: "run", none: true };
 let entries: Entry[] = [];
-let shown: { kind: Kind; reply: Reply } | undefined;
+/** The answer that is shown, and what it was asked. */
+let shown: { asked: Asked; reply: Reply; modes?: Reply } | undefined;
 let pin: Pin | undefined;
 let version = "";
-/** The diagram whose modes are looked at. */
-let diagram: Reply | undefined;
+/** Counts the texts of the user and the cases that were opened. */
+let revision = 0;
+/** Counts every change of the text and of what is asked of it: an answer to an older number is old. */
+let number = 0;
 
 const growing = new Growing(element("growing"));
 const computer = new Computer({ checked, answered, said, failed, grown: (rows, end) => (rows ? growing.add(rows, end ?? 0) : growing.clear()) });
 const source = new Source(element("text"), (text) => {
-  state.text = text;
-  diagram = undefined;
+  state = { ...state, text, none: false };
   revision += 1;
-  wait(() => change(), 250);
+  able();
+  renewed();
+  clearTimeout(waiting);
+  waiting = window.setTimeout(() => change(), 250);
 });
 const form = new Form(element("form"), (key, value, sliding) => set([`${key.replace(/\[(\d+)\]/g, ".$1")}=${value}`], sliding));
 const answer = new Answer(room, element("notes"), element("values"), (speed) => {
@@ -73,29 +80,30 @@ const answer = new Answer(room, element("notes"), element("values"), (speed) => 
 });
 
 let waiting = 0;
-function wait(act: () => void, milliseconds: number) {
-  clearTimeout(waiting);
-  stale();
-  waiting = window.setTimeout(act, milliseconds);
+
+/** The text or what is asked of it is another; `sliding` says that more will follow. */
+function renewed(sliding = false) {
+  number += 1;
+  halted = false;
+  element("result").classList.toggle("sliding", sliding);
+  age();
 }
 
 /** An old answer never stands under a new case as if it were its own. */
-function stale() {
-  element("result").classList.add("stale");
-  element("result").setAttribute("aria-busy", "true");
+function age() {
+  const old = shown?.asked.number !== number;
+  element("result").classList.toggle("stale", old);
+  element("result").setAttribute("aria-busy", String(old));
 }
-
-/** Counts the texts of the user and the cases that were opened. */
-let revision = 0;
 
 const asked = (): Asked => ({
   text: state.text,
   files: state.files,
   kind: state.kind,
   revision,
+  number,
   speed: state.speed,
   range: range(),
-  diagram: state.kind === "campbell" ? diagram : undefined,
 });
 
 /** A largest speed, if it is one. */
@@ -110,30 +118,29 @@ function range(): string | undefined {
 
 /** Speeds of the diagram that is shown. */
 function speeds(): string {
-  const of = diagram && campbell(diagram);
-  const unit = of?.["speed-unit"];
-  return range() ?? (of ? `0 ${unit}:${Number(of.speeds[of.speeds.length - 1].toPrecision(3))} ${unit}:31` : "0:10:31");
+  if (shown?.asked.kind !== "campbell") return range() ?? "0:10:31";
+  const { speeds, "speed-unit": unit } = campbell(shown.reply);
+  return range() ?? `0 ${unit}:${Number(speeds[speeds.length - 1].toPrecision(3))} ${unit}:31`;
 }
 
 /** The case or what is asked of it has changed. */
-function change(sliding = false) {
-  stale();
-  computer.want({ ...asked(), sliding });
-  if (!sliding) remember();
+function change() {
+  renewed();
+  computer.want(asked());
+  remember();
 }
 
 /** Sets keys of the case. */
 function set(changes: string[], sliding = false) {
-  stale();
-  diagram = undefined;
+  renewed(sliding);
   computer.want({ ...asked(), set: changes, sliding });
 }
 
-/** The case has been read; whether it can be computed. */
-function checked(reply: Reply, text: string, { revision: of, set, sliding }: Asked): boolean {
+/** The case has been read; what is asked of it, if it can be computed. */
+function checked(reply: Reply, text: string, of: Asked): Asked | undefined {
   // What has been written or opened since is newer.
-  if (of !== revision) return false;
-  if (set) source.text = state.text = text;
+  if (of.revision !== revision) return undefined;
+  if (of.set?.length) source.text = state.text = text;
   const problems = reply.problems ?? [];
   const missing = state.kind === "run" && !state.fresh ? (reply.missing ?? []) : [];
   list([...problems, ...missing]);
@@ -143,20 +150,25 @@ function checked(reply: Reply, text: string, { revision: of, set, sliding }: Ask
     form.show(entries);
     const title = entries.find(({ path }) => path === "title");
     name(title ? written(title) : "");
+  } else if (state.fresh) {
+    // Nothing of the case before stands beside one that cannot be read.
+    nothing();
+    name("");
   }
   // A case without a run has modes; those of a case are at its own speed, which is known now.
   const modal = reply.missing?.length ? state.kind === "run" : state.kind === "modes" || state.kind === "campbell";
   if (state.fresh && modal && problems.length === 0) {
     if (state.kind === "run") state.kind = "modes";
-    state.speed ??= speedOf();
     state.fresh = false;
     present();
     change();
-    return false;
+    return undefined;
   }
-  state.fresh = false;
-  if (!sliding) remember();
-  return problems.length === 0 && missing.length === 0;
+  if (reply.tables) state.fresh = false;
+  const rotates = state.kind === "modes" || state.kind === "campbell";
+  if (rotates && state.speed === undefined) element<HTMLInputElement>("rotation").value = state.speed = speedOf();
+  if (!of.sliding) remember();
+  return problems.length + missing.length > 0 ? undefined : { ...of, text, set: undefined, speed: state.speed, range: range() };
 }
 
 function name(title: string) {
@@ -185,40 +197,50 @@ function list(problems: Problem[]) {
 }
 
 /** An answer has come. */
-function answered(kind: Kind, reply: Reply, modes?: Reply) {
+function answered(asked: Asked, reply: Reply, modes?: Reply) {
+  shown = { asked, reply, modes };
+  growing.clear();
+  draw();
+}
+
+/** Draws the answer, beside what is pinned. */
+function draw() {
+  if (!shown) return;
+  const { asked, reply, modes } = shown;
   const older = state.version && version && state.version !== version;
   const remark = older ? `The link was made with Flexion ${state.version}; these numbers are of Flexion ${version} and may differ.` : undefined;
   try {
-    if (kind === "campbell") {
-      diagram = reply;
-      const { speeds, "speed-unit": unit } = campbell(reply);
-      element<HTMLInputElement>("most").value ||= (range() ?? `0:${Number(speeds[speeds.length - 1].toPrecision(3))} ${unit}`).split(":")[1];
-      // The speed of the modes may be in another unit than those of the diagram.
-      const at = quantity(state.speed ?? "");
-      const factor = at?.unit ? inRadians(at.unit) / inRadians(unit) : 1;
-      answer.showCampbell(reply, modes, factor * (at?.number ?? 0), remark);
-    } else answer.show(kind, reply, pin, remark);
-    shown = { kind, reply };
-    growing.clear();
-    if (pin) void compare(pin);
-    element("result").classList.remove("stale");
-    element("result").removeAttribute("aria-busy");
-    element("pin").toggleAttribute("disabled", kind !== "run" && !pin);
+    if (asked.kind === "campbell") {
+      const box = element<HTMLInputElement>("most");
+      if (!state.most && document.activeElement !== box) box.value = speeds().split(":")[1];
+      answer.showCampbell(reply, modes, asked.speed ?? "0 rad/s", remark);
+    } else answer.show(asked.kind, reply, pin, remark);
+    if (pin) void compare(pin, asked);
   } catch (error) {
+    shown = undefined;
     failed(`The answer cannot be drawn: ${(error as Error).message}`);
   }
+  age();
+  able();
 }
 
 /** Says what the pinned case has otherwise. */
-async function compare({ text }: Pin) {
-  const set = await computer.difference(text, state.text, state.files).catch(() => undefined);
+async function compare({ text }: Pin, of: Asked) {
+  const set = await computer.difference(text, of.text, of.files).catch(() => undefined);
   const note = document.querySelector("#notes .pinned");
-  if (note && set?.length && set.length < 6) note.textContent = `Dashed: the pinned answer, with ${set.join(", ")}.`;
+  if (note && shown?.asked === of && set?.length && set.length < 6) note.textContent = `Dashed: the pinned answer, with ${set.join(", ")}.`;
+}
+
+/** Without a case there is nothing to compute or to take along, and without a run nothing to pin. */
+function able() {
+  for (const node of all("[data-kind], [data-copy], [data-save]")) node.toggleAttribute("disabled", state.none === true);
+  element("pin").toggleAttribute("disabled", !pin && shown?.asked.kind !== "run");
 }
 
 /** Says how far it is. */
 function said(words: string, share?: number, act?: "compute" | "stop") {
-  element("state").textContent = words;
+  // A number with hundreds of digits says no more than its size.
+  element("state").textContent = words.replace(/\d{25,}(\.\d+)?/g, (digits) => String(Number(digits)));
   const progress = element<HTMLProgressElement>("progress");
   progress.hidden = share === undefined;
   if (share !== undefined) progress.value = share;
@@ -247,22 +269,28 @@ function tell(words: string) {
 /** What was last put into the address. */
 let written_ = "";
 let remembering = 0;
+/** Counts what is to be written there, and whether it is a new entry of the history. */
+let [addresses, pushing] = [0, false];
 /** Links that are being opened. */
 let following = 0;
+/** Whether the opening of the link in the address was stopped. */
+let halted = false;
 /** Whether the address leads elsewhere than to what is shown. */
 const leads = () => following > 0 || location.hash.slice(1) !== written_;
 
 /** The address says what is shown, if it leads nowhere else by then. */
 function remember(push = false) {
   clearTimeout(remembering);
+  const own = ++addresses;
+  pushing ||= push;
   const act = async () => {
-    const before = written_;
     if (leads()) return;
     const fragment = await link().catch(() => "");
-    if (fragment === written_ || before !== written_ || leads()) return;
+    if (fragment === written_ || own !== addresses || leads()) return;
     written_ = fragment;
     const address = `${location.pathname}${location.search}${fragment && `#${fragment}`}`;
-    history[push ? "pushState" : "replaceState"](null, "", address);
+    history[pushing ? "pushState" : "replaceState"](null, "", address);
+    pushing = false;
   };
   if (push) void act();
   else remembering = window.setTimeout(act, 300);
@@ -279,28 +307,33 @@ async function link(): Promise<string> {
     const set = await computer.difference(state.text, changes, state.files);
     if (set) return write({ ...common, named: item.item.id, run, set });
   }
-  const named = Object.keys(state.files).filter((name) => state.text.includes(name));
+  const named = needed();
   if (named.length > 0) throw new Error(`A link cannot carry the files of this case (${named.join(", ")}): save the case as a file and pass that on.`);
   const fragment = await write({ ...common, text: state.text, set: [] });
   if (fragment.length > LONGEST || state.text.length > LARGEST) throw new Error("The case is too long for a link: save it as a file and pass that on.");
   return fragment;
 }
 
+/** Files that the case names. */
+const needed = () => Object.keys(state.files).filter((name) => state.text.includes(name));
+
 /** Shows what the address says. */
 async function follow() {
   const fragment = location.hash.slice(1);
   if (fragment === written_ && state.text) return;
   written_ = fragment;
-  stale();
+  [addresses, pushing] = [addresses + 1, false];
+  renewed();
   list([]);
   said("opening …", undefined, "stop");
   following += 1;
+  // A newer address is followed instead, and after Stop none.
+  const wanted = () => written_ === fragment && !halted;
   try {
     const asked = await read(fragment);
-    // A newer address is followed instead.
-    if (written_ === fragment) await open(asked);
+    if (wanted()) await open(asked);
   } catch (error) {
-    if (written_ === fragment) refuse((error as Error).message);
+    if (wanted()) refuse((error as Error).message);
   } finally {
     following -= 1;
   }
@@ -308,16 +341,22 @@ async function follow() {
 
 function refuse(message: string) {
   computer.stop();
-  state = { text: "", files: {}, kind: "run" };
-  [shown, diagram, entries] = [undefined, undefined, []];
-  present();
-  form.show(entries);
+  nothing();
+  replace({ text: "", files: {}, kind: "run", none: true });
+  renewed();
   source.report([]);
-  answer.clear();
-  room.stage.hidden = true;
   name("This link cannot be opened");
   element("problems").replaceChildren(tag("li", {}, message, " ", again()));
   said("");
+}
+
+/** Takes away what is known of a case. */
+function nothing() {
+  [shown, entries] = [undefined, []];
+  form.show(entries);
+  answer.clear();
+  room.stage.hidden = true;
+  able();
 }
 
 /** A way on from a link that leads nowhere. */
@@ -332,12 +371,9 @@ async function open(asked: Link) {
   const own = ++openings;
   computer.stop();
   computer.lifted = false;
-  diagram = undefined;
-  // What is known of the case before comes too late from here on.
-  revision += 1;
   const kind = asked.kind ?? "run";
   if (asked.text !== undefined) {
-    state = { text: asked.text, files: {}, kind, speed: asked.speed, most: largest(asked.most), version: asked.version, fresh: true };
+    replace({ text: asked.text, files: {}, kind, speed: asked.speed, most: largest(asked.most), version: asked.version, fresh: true });
   } else {
     const id = asked.named ?? gallery.first;
     const found = gallery.named(id, asked.run);
@@ -352,17 +388,23 @@ async function open(asked: Link) {
     const speed = asked.speed ?? found.run.speed ?? found.item.speed;
     // Another one was opened in the meantime.
     if (own !== openings) return;
-    state = { text, files, item: found.item, run: found.run, kind: its ?? kind, speed, most: largest(asked.most), version: asked.version, fresh: true };
+    replace({ text, files, item: found.item, run: found.run, kind: its ?? kind, speed, most: largest(asked.most), version: asked.version, fresh: true });
   }
-  present();
   name("");
   change();
 }
 
-/** Shows the state beside the answer. */
-function present() {
+/** Another case: what is known of the one before comes too late from here on. */
+function replace(next: State) {
+  state = next;
   revision += 1;
   source.text = state.text;
+  present();
+}
+
+/** Shows the state beside the answer. */
+function present() {
+  able();
   const runs = state.item?.runs ?? [];
   element("runs").hidden = runs.length < 2;
   const select = element<HTMLSelectElement>("run");
@@ -389,23 +431,9 @@ function tab(which: "form" | "text") {
 }
 
 for (const name of ["form", "text"] as const) element(`tab-${name}`).addEventListener("click", () => tab(name));
-for (const list of all('[role="tablist"]')) {
-  list.addEventListener("keydown", (event) => {
-    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
-    const tabs = [...list.querySelectorAll<HTMLElement>('[role="tab"]')];
-    const at = tabs.indexOf(event.target as HTMLElement);
-    if (!by || at < 0) return;
-    event.preventDefault();
-    event.stopPropagation();
-    const next = tabs[(at + by + tabs.length) % tabs.length];
-    next.focus();
-    next.click();
-  });
-}
 for (const node of all("[data-kind]")) {
   node.addEventListener("click", () => {
     state.kind = node.dataset.kind as Kind;
-    if (state.kind === "modes" || state.kind === "campbell") state.speed ??= speedOf();
     present();
     list([]);
     change();
@@ -427,7 +455,6 @@ element<HTMLInputElement>("most").addEventListener("change", (event) => {
   state.most = largest(box.value);
   if (box.value.trim() && !state.most) tell("The diagram leads up to a speed above zero, as 20 rpm.");
   box.value = state.most ?? "";
-  diagram = undefined;
   change();
 });
 element<HTMLSelectElement>("run").addEventListener("change", (event) => {
@@ -437,10 +464,18 @@ element<HTMLSelectElement>("run").addEventListener("change", (event) => {
   void open({ named: found.item.id, run: found.run.name, set: [], ...keep }).then(() => remember(true), (error) => failed(error.message));
 });
 element("compute").addEventListener("click", () => {
+  if (halted) {
+    written_ = "#";
+    return void follow();
+  }
   computer.lifted = true;
   change();
 });
-element("stop").addEventListener("click", () => computer.stop("Stopped. Change the case or press Compute to go on."));
+element("stop").addEventListener("click", () => {
+  halted = following > 0;
+  if (halted) openings += 1;
+  computer.stop(halted ? "Stopped. Press Compute to open the link." : "Stopped. Change the case or press Compute to go on.");
+});
 
 const dialog = element<HTMLDialogElement>("gallery");
 element("open-gallery").addEventListener("click", () => {
@@ -449,11 +484,11 @@ element("open-gallery").addEventListener("click", () => {
 });
 
 element("pin").addEventListener("click", () => {
-  pin = pin ? undefined : shown && { ...shown, text: state.text };
+  pin = pin ? undefined : shown && { kind: shown.asked.kind, reply: shown.reply, text: shown.asked.text };
   element("pin").setAttribute("aria-pressed", String(pin !== undefined));
   element("pin").textContent = pin ? "Pinned" : "Pin";
   if (pin) tell("Pinned. Change the case: both answers are drawn, the pinned one dashed.");
-  else if (shown) answered(shown.kind, shown.reply);
+  else draw();
 });
 
 // The address is that of the case.
@@ -462,30 +497,8 @@ document.querySelector(".skip")!.addEventListener("click", (event) => {
   element("result").focus();
 });
 
-// A menu closes when something in it was chosen, or something else was.
-for (const menu of all("details.menu") as HTMLDetailsElement[]) {
-  document.addEventListener("click", (event) => {
-    const { target } = event as unknown as { target: Node };
-    if (!menu.contains(target) || (target as HTMLElement).matches("div button")) menu.open = false;
-  });
-  menu.addEventListener("keydown", (event) => {
-    if (event.key !== "Escape" || !menu.open) return;
-    menu.open = false;
-    menu.querySelector("summary")!.focus();
-  });
-}
-
 async function put(text: string, what: string) {
-  try {
-    await navigator.clipboard.writeText(text);
-  } catch {
-    const box = tag("textarea", { "aria-label": what });
-    box.value = text;
-    document.body.append(box);
-    box.select();
-    document.execCommand("copy");
-    box.remove();
-  }
+  await save.copy(text, what);
   tell(`${what} is copied.`);
 }
 
@@ -501,7 +514,7 @@ const copies: Record<string, () => Promise<void>> = {
     await put(save.command(state.kind, difference ? found.path : "case.toml", difference ?? [], state.speed, speeds()), "The command");
     if (!difference) tell("The command is copied. It takes the case from case.toml: save the case as that.");
   },
-  python: async () => put(save.python(state.kind, state.text, state.speed), "The Python text"),
+  python: async () => put(save.python(state.kind, state.text, state.speed, speeds(), needed()), "The Python text"),
 };
 for (const node of all("[data-copy]")) {
   node.addEventListener("click", () => copies[node.dataset.copy!]().catch((error) => tell(error.message)));
@@ -554,20 +567,9 @@ async function take(given: File[]) {
   const text = await toml.text();
   if (own !== openings) return;
   computer.stop();
-  state = { text, files, kind: "run", fresh: true };
-  [diagram, computer.lifted] = [undefined, false];
-  present();
+  computer.lifted = false;
+  replace({ text, files, kind: "run", fresh: true });
   change();
-}
-
-/** A kind with the table of its example. */
-function example(path: string, { name, example }: { name: string; example: string }) {
-  const own = path.split(".").at(-1)!;
-  const table = new RegExp(`(?:^|[\\s{,])${own}\\s*=\\s*(\\{.*)`, "s").exec(example)?.[1];
-  if (!table) return { name, example: `{ kind = "${name}" }` };
-  let depth = 0;
-  const end = [...table].findIndex((c) => (depth += c === "{" ? 1 : c === "}" ? -1 : 0) === 0);
-  return { name, example: table.slice(0, end + 1) };
 }
 
 // While the engine comes.

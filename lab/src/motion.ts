@@ -66,7 +66,7 @@ function read(results: Results, other?: Results) {
     const from = Math.min(Math.floor(k / pieces), times.length - 1);
     return { from, to: Math.min(from + 1, times.length - 1), share: (k % pieces) / pieces };
   });
-  const strongest = (all: Acting[]) => Math.max(0, ...all.map(({ values }) => largest(values.filter((_, i) => i % 6 > 2))));
+  const strongest = (all: Acting[]) => all.reduce((most, { values }) => Math.max(most, longest(values)), 0);
   return {
     results,
     space,
@@ -84,6 +84,13 @@ function read(results: Results, other?: Results) {
     /** The largest [N] or [N·m] of each kind. */
     strongest: space.acting.map(strongest),
   };
+}
+
+/** The longest of vectors that stand behind their places. */
+function longest(values: Float64Array): number {
+  let most = 0;
+  for (let i = 3; i < values.length; i += 6) most = Math.max(most, Math.hypot(values[i], values[i + 1], values[i + 2]));
+  return most;
 }
 
 /** The largest angle [rad] by which a part or its hub turns between neighbouring times. */

@@ -1,6 +1,7 @@
 // What can be taken along: picture, film, files, and the case as link, text, command or Python.
+import { tag } from "./curves";
+import { quantity } from "./form";
 import type { Drawn, Room } from "./room";
-import { inRadians } from "./text";
 
 export function download(content: Blob, name: string) {
   const address = URL.createObjectURL(content);
@@ -9,6 +10,20 @@ export function download(content: Blob, name: string) {
   link.click();
   link.remove();
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** Puts text into the clipboard. */
+export async function copy(text: string, what: string) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const box = tag("textarea", { "aria-label": what });
+    box.value = text;
+    document.body.append(box);
+    box.select();
+    document.execCommand("copy");
+    box.remove();
+  }
 }
 
 /** The picture on the colour of the page. */
@@ -73,16 +88,19 @@ export function command(kind: string, path: string, changes: string[], speed: st
   return ["flexion", kind, quoted(path), ...at, ...options].join(" ");
 }
 
-/** A text of Python that computes the same. */
-export function python(kind: string, toml: string, speed?: string): string {
+/** A text of Python that computes the same; `speeds` are those of a Campbell diagram, `from:to:number`. */
+export function python(kind: string, toml: string, speed: string | undefined, speeds: string, files: string[]): string {
   const text = toml.includes('"""') || toml.includes("\\") ? JSON.stringify(toml) : `"""\n${toml.trimEnd()}\n"""`;
-  const [, number, unit] = speed?.match(/^\s*([\d.eE+-]+)\s*(.*)$/) ?? ["", "0", ""];
-  const radians = Number((Number(number) * inRadians(unit || "rad/s")).toPrecision(8)) || 0;
+  const [, most, count] = speeds.split(":");
+  const last = quantity(most) ?? { number: 10, unit: "" };
+  const at = `${last.number} * k / ${Number(count) - 1}`;
+  const diagram = last.unit ? `f"{${at}} ${last.unit}"` : at;
   const call = {
     run: 'case.run()\nprint(result)\nresult.plot().save("case.png")',
-    modes: `case.modes(${radians})          # rad/s\nprint(result)`,
-    campbell: `case.campbell([${radians || 20} * k / 20 for k in range(31)])          # rad/s\nprint(result)`,
+    modes: `case.modes(${JSON.stringify(speed ?? "0 rad/s")})\nprint(result)`,
+    campbell: `case.campbell([${diagram} for k in range(${count})])\nprint(result)`,
     statics: "case.statics()\nprint(result)",
   }[kind];
-  return `import flexion\n\ncase = flexion.Case(${text})\nresult = ${call}\n`;
+  const beside = files.length > 0 ? `# The case reads ${files.join(", ")}: it is looked for from the folder in which this is called.\n` : "";
+  return `import flexion\n\n${beside}case = flexion.Case(${text})\nresult = ${call}\n`;
 }

@@ -22,9 +22,9 @@ export function steady(x: number): string {
   return digits.replace(/-/g, "−").replace("e+", "e");
 }
 
-const PER_SECOND: Record<string, number> = { "rad/s": 1, rpm: Math.PI / 30, "deg/s": Math.PI / 180, Hz: 2 * Math.PI, "1/s": 2 * Math.PI };
+const PER_SECOND: Record<string, number> = { "rad/s": 1, rpm: Math.PI / 30, Hz: 2 * Math.PI };
 
-/** How many rad/s a unit of speed or frequency is. */
+/** How many rad/s a unit of speed or frequency is, of those that replies are in. */
 export const inRadians = (unit: string) => PER_SECOND[unit] ?? 1;
 
 /** At most so many intervals between round numbers within a range. */

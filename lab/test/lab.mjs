@@ -6,6 +6,7 @@ import { join, resolve } from "node:path";
 import { deflateRawSync } from "node:zlib";
 import { faint } from "./contrast.mjs";
 import { answered, launch, opened, serve } from "./open.mjs";
+import { standing } from "./standing.mjs";
 
 const option = (name) => {
   const at = process.argv.indexOf(name);
@@ -218,6 +219,12 @@ const journeys = {
     await page.goto(`${lab}#c=${deflateRawSync(large).toString("base64url")}`);
     await page.waitForFunction(() => document.querySelector("#stop").hidden && document.querySelector("#state").textContent !== "");
     assert.doesNotMatch(await page.textContent("#state"), /unreachable/);
+  },
+  async "notes say how long the longest arrows are"(page) {
+    await page.goto(`${lab}#case=space_elbow`);
+    await answered(page);
+    // Its vectors have several components: the longest couple is one of 209.5 N·m.
+    assert.match(await page.textContent("#note"), /Grey is what joints and springs transmit, 30\.1 N and 210 N·m at most/);
   },
   async "it plays, stops and steps"(page) {
     await page.goto(`${lab}#case=space_joints`);
@@ -481,6 +488,7 @@ const journeys = {
     await page.goto(`${lab}#c=${deflateRawSync(source(noise.repeat(2).split("").reverse().join("x"))).toString("base64url")}`);
     await page.waitForFunction(() => /characters; 65536 is the most/.test(document.querySelector("#problems").textContent));
   },
+  ...standing({ lab, slide, edit, fragment }),
 };
 
 /** Whether a journey succeeds. */
