@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
 use super::verification::run::integrate;
-use flexion_case::{Reading, parse};
+use flexion_case::{Reading, Run, parse};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A rod that falls flat.
@@ -127,6 +128,32 @@ fn the_impulses_of_all_contacts_of_a_rod_that_falls_flat_are_its_momentum() {
     let found: f64 = run.events.impulses().map(|(_, impulse)| impulse).sum();
     // The trapezium rule over forces that vibrate.
     assert!((found / expected - 1.0).abs() < 3e-3, "{found} for {expected}");
+}
+
+/// 400 points that leave the floor one after the other within 1e-7 s, as the vibrations of a rod have it, do so in a few events: what the run costs is then
+/// the points themselves, and the motion that of 20 points.
+#[test]
+fn many_points_that_leave_next_to_at_once_are_few_events() {
+    let of = |points: &str| -> Run {
+        let text = ROD
+            .replace("points = 100", points)
+            .replace(
+                "kind = 'constraint', restitution = 0, friction = 0.3",
+                "kind = 'hunt-crossley', stiffness = 1e6, restitution = 0.5",
+            )
+            .replace("kind = 'nonsmooth-generalized-alpha'\nstep = '0.2 ms'", "kind = 'radau'\ntolerance = 1e-6");
+        read(&text).prepare().unwrap().run(&mut |_| ControlFlow::Continue(()))
+    };
+    let [few, many] = ["points = 20", "points = 400"].map(of);
+    let residuals = [&few, &many].map(|run| run.counters.residuals);
+    assert!(residuals[1] < 2 * residuals[0], "{residuals:?}");
+    assert_eq!(many.events.list.len(), 2 * 401);
+    let [few, many] = [few, many].map(|run| {
+        let column = run.trajectory.index("rod.tip.velocity.z").unwrap();
+        run.trajectory.extremes(column).last
+    });
+    // The force per length is summed up by the trapezium rule.
+    assert!((many - few).abs() < 2e-3 * few.abs(), "{many} {few}");
 }
 
 /// Twelve rows with friction, six of which follow from the others: the box comes to rest on its face, bears its weight, m g, and has m g h/2 = 0.4905 J left.

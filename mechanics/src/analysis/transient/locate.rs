@@ -40,6 +40,9 @@ const DIVISIONS: usize = 60;
 const BENDING: f64 = 0.1;
 /// Attempts to refine the time of an event.
 const ATTEMPTS: usize = 200;
+/// Part of an attempted step within which indicators of the model that vanish one after the other do so in one event: a force that begins late
+/// by τ gives an impulse that is off by ½ F′ ġ τ², which is 1e-10 of what a step resolves.
+const TOGETHER: f64 = 1e-5;
 
 /// Indicators of a system, with their values at both ends of a step.
 #[derive(Debug)]
@@ -262,8 +265,35 @@ impl Locator {
             self.trial_value(system);
         }
         to.copy_from(&self.trial);
+        if let Some(later) = self.together(size, h) {
+            self.retry(system, integrator, from, later)?;
+            self.trial_value(system);
+            if self.least_row(&self.end) > 0.0 {
+                to.copy_from(&self.trial);
+                size = later;
+            } else {
+                self.trial.copy_from(to);
+                self.trial_value(system);
+            }
+        }
         self.complete(to, implicit);
         Ok((size, true))
+    }
+
+    /// The size of the step, `size` or little more, within which all indicators of the model have vanished that do so next to at once, if there is one that
+    /// has not.
+    fn together(&self, size: f64, h: f64) -> Option<f64> {
+        let m = self.sets.len();
+        let mut later: Option<f64> = None;
+        for k in 0..self.own {
+            let (left, rate) =
+                (self.signs[k] * self.end.indicator[m + k], self.signs[k] * self.end.rate[m + k]);
+            let time = -left / rate;
+            if left > 0.0 && rate < 0.0 && time <= TOGETHER * h {
+                later = Some(later.unwrap_or(0.0).max(time));
+            }
+        }
+        later.map(|time| size + 1.1 * time).filter(|later| *later < h)
     }
 
     /// Gives `to`, whose indicators were evaluated last, accelerations and multipliers that are consistent with its position and velocity, where
@@ -342,14 +372,18 @@ impl Locator {
 
     fn least(&self, values: &Values) -> f64 {
         let m = self.sets.len();
-        let rows = (0..m).map(|i| {
+        let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x / SMALLEST);
+        own.fold(self.least_row(values), f64::min)
+    }
+
+    fn least_row(&self, values: &Values) -> f64 {
+        let rows = (0..self.sets.len()).map(|i| {
             let (x, zero) = (values.indicator[i], values.zero[i]);
             let scaled = if x.is_finite() { x / zero.max(SMALLEST) } else { f64::MAX };
             let leaves = self.leaving[i] && (values.rate[i] > 0.0 || scaled > -1.0);
             if leaves { scaled.max(SEPARATING) } else { scaled }
         });
-        let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x / SMALLEST);
-        rows.chain(own).fold(f64::MAX, f64::min)
+        rows.fold(f64::MAX, f64::min)
     }
 
     /// Whether the least indicator at the trial is zero to rounding.
