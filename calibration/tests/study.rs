@@ -73,7 +73,6 @@ fn all_kinds_are_drawn() {
             "load.distribution" => kind == "uniform",
             // Written between other quotation marks.
             "spring.kind" => kind == "point",
-            "contact.mount" => kind == "ground",
             _ => false,
         };
         for kind in choice.kinds() {

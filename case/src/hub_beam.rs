@@ -375,6 +375,11 @@ fn on_beam(contact: Contact, c: &Context<'_>) -> Made<OnBeam> {
         let message = "the axis of a beam on a hub touches, and has no radius";
         return Err(Fault::new("radius", message).help("move the obstacle by the radius").into());
     }
+    if let Mount::Part(_) = contact.mount {
+        let message =
+            "names a part of a beam on a hub, whose obstacles are fixed to the `ground` or the `hub`";
+        return Err(Fault::new("mount", message).help("in space, `[[beam]]`, bodies carry obstacles").into());
+    }
     if !contact.obstacle.planar {
         let message = "stands or moves across the plane of motion, that of x and y";
         return Err(Fault::new("obstacle", message).help("let what it is made of lie in the plane").into());

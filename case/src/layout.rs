@@ -33,7 +33,6 @@ pub(super) static CHOICES: &[&dyn Kinds] = &[
     &amplitude::DISTRIBUTION,
     &force_law::FORCE_LAW,
     &obstacle::OBSTACLE,
-    &contact::MOUNT,
     &contact::LAW,
     &spring::SPRING_KIND,
     &COUPLING,

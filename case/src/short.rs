@@ -467,7 +467,7 @@ fn turning(v: &Values, start: &Start, c: &Context<'_>) -> Made<()> {
             let key = if mount.is_some() { "mount" } else { "obstacle" };
             refuse(
                 format!("{table}.{key}"),
-                "turns with the hub, and obstacles in space are fixed to the ground, or moved",
+                "turns with the hub, and obstacles in space are fixed to the ground or to a body, or moved",
             );
         }
     }

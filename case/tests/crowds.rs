@@ -141,7 +141,10 @@ fn many_points_that_leave_next_to_at_once_are_few_events() {
                 "kind = 'constraint', restitution = 0, friction = 0.3",
                 "kind = 'hunt-crossley', stiffness = 1e6, restitution = 0.5",
             )
-            .replace("kind = 'nonsmooth-generalized-alpha'\nstep = '0.2 ms'", "kind = 'radau'\ntolerance = 1e-6");
+            .replace(
+                "kind = 'nonsmooth-generalized-alpha'\nstep = '0.2 ms'",
+                "kind = 'radau'\ntolerance = 1e-6",
+            );
         read(&text).prepare().unwrap().run(&mut |_| ControlFlow::Continue(()))
     };
     let [few, many] = ["points = 20", "points = 400"].map(of);

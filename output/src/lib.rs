@@ -63,7 +63,7 @@ pub use self::load_path::{LoadPath, LoadPoint, PointError};
 pub use self::nearest::nearest;
 #[cfg(feature = "archives")]
 pub use self::npz::write_npz;
-pub use self::obstacles::Drawn;
+pub use self::obstacles::{Carrier, Drawn};
 #[cfg(feature = "page")]
 pub use self::page::view_page;
 pub use self::provenance::resolved_case;

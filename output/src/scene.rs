@@ -267,9 +267,7 @@ impl Scene {
         }
         self.forces.take(system, state);
         for Outline { drawn, points } in &mut self.obstacles {
-            let mut frames = [Frame::default(); 2];
-            system.frames(drawn.body, state, &[0.0, drawn.station], &mut frames);
-            let outline = drawn.outline([&frames[0], &frames[1]], state.t, drawn.size);
+            let outline = drawn.outline(system, state, drawn.size);
             points.extend(outline.into_iter().flatten().map(|x| x as f32));
         }
     }
@@ -521,7 +519,7 @@ mod tests {
             points: Vec::new(),
             size: 2.0,
             in_space: false,
-            on_hub: false,
+            carrier: crate::Carrier::Ground,
             obstacle,
         };
         let beam = Part::beam(("arm", 0), (2.0, 1), flat, Some(0.5), &[1.5]);

@@ -69,11 +69,7 @@ impl Shapes {
         system.frames(0, state, &self.stations, &mut self.frames[start..]);
         if !self.obstacles.is_empty() {
             let size = 0.5 * self.stations.last().copied().unwrap_or(0.0);
-            let mut outline = |drawn: &Drawn| {
-                let mut frames = [Frame::default(); 2];
-                system.frames(0, state, &[0.0, drawn.station], &mut frames);
-                drawn.outline([&frames[0], &frames[1]], state.t, size)
-            };
+            let mut outline = |drawn: &Drawn| drawn.outline(system, state, size);
             self.outlines.push(self.obstacles.iter().map(&mut outline).collect());
         }
     }

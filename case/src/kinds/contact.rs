@@ -4,13 +4,13 @@ use super::name::{NAME, name, numbered};
 use super::obstacle::{OBSTACLE, Placed};
 use crate::declaration::Bound::*;
 use crate::fault::{Fault, Made};
-use crate::keys::{Field, choice, integer, keys, kind, number, places, quantity, vector};
+use crate::keys::{Field, Takes, integer, keys, kind, number, place, places, quantity, vector};
 use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::places::{Parts, Place};
 use crate::units::{LENGTH, VELOCITY};
-use crate::values::Values;
+use crate::values::{Value, Values};
 use flexion::contact::{ContactForce, Dissipation, Law};
-use flexion::hub_beam::Mount;
+use flexion::hub_beam;
 use flexion::linalg::Vec3;
 
 /// Most points of the whole beam.
@@ -73,6 +73,11 @@ impl Contact {
         matches!(self.on, Touching::Points { .. }) && !rolls
     }
 
+    /// The part that carries its obstacle.
+    pub fn carrier(&self) -> Option<Place> {
+        if let Mount::Part(place) = self.mount { Some(place) } else { None }
+    }
+
     /// Its points; that at the root of a beam is none where the root is `held`.
     pub fn points(&self, parts: &Parts, held: bool) -> Vec<Point> {
         let name = |k: usize| format!("{}.{}", self.name, k + 1);
@@ -96,29 +101,39 @@ impl Contact {
     }
 }
 
-/// What an obstacle is fixed to.
-pub static MOUNT: Choice<Mount> = Choice {
-    name: "mount",
-    path: "contact.mount",
-    summary: "what an obstacle is fixed to",
-    kinds: &[
-        Kind {
-            name: "ground",
-            summary: "axes of space",
-            source: "",
-            example: "contact=[{mount='ground', obstacle={kind='plane', point=[0, '-1 mm']}, law={kind='hertz', stiffness=1e4}}]\n\
-                      hub.motion={kind='constant', speed='-0.1 rad/s'}",
-            make: &Is(Mount::Ground),
-        },
-        Kind {
-            name: "hub",
-            summary: "radial and transverse axis of the hub, from its axis: the obstacle turns with it",
-            source: "",
-            example: "contact=[{mount='hub', obstacle={kind='plane', point=[0, '-1 um']}, law={kind='hertz', stiffness=1e5}}]",
-            make: &Is(Mount::Hub),
-        },
-    ],
-};
+/// What an obstacle is fixed to, in whose axes it is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mount {
+    /// Axes of space.
+    Ground,
+    /// Radial and transverse axis of the hub, from its axis.
+    Hub,
+    /// A body, or a section of a beam, from its own point.
+    Part(Place),
+}
+
+impl Mount {
+    /// That of a beam on a hub.
+    pub fn on_hub(self) -> hub_beam::Mount {
+        if self == Mount::Hub { hub_beam::Mount::Hub } else { hub_beam::Mount::Ground }
+    }
+}
+
+impl Takes<Place> for Mount {
+    fn take(value: Option<&Value>, c: &Context<'_>) -> Made<Mount> {
+        let written: String = Takes::<str>::take(value, c)?;
+        match c.parts()?.find(&written) {
+            Ok(Place::Ground) => Ok(Mount::Ground),
+            Ok(Place::Beam(_)) => {
+                let message = format!("`{written}` is a whole beam, and a section is meant");
+                Err(Fault::new("", message).help(format!("write for example `{written}.tip`")).into())
+            }
+            Ok(place) => Ok(Mount::Part(place)),
+            Err(_) if written.trim() == "hub" => Ok(Mount::Hub),
+            Err(fault) => Err(fault.into()),
+        }
+    }
+}
 
 const RESTITUTION: Field<f64> =
     number(Between(0.0, 1.0)).called("restitution", "nominal coefficient of restitution e");
@@ -286,8 +301,9 @@ keys! {
         points: Option<usize> = integer(1, MOST_POINTS);
         /// rigid obstacle
         obstacle: Placed = kind(&OBSTACLE);
-        /// part that the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop
-        mount: Option<Mount> = choice(&MOUNT);
+        /// part that the obstacle is fixed to, in whose axes and from whose point it is given: `ground`, `hub`, a body or a place of a beam in
+        /// space; the ground if left out, the hub of a stop
+        mount: Option<Mount> = place();
         /// law of the contact
         law: (Law, bool) = kind(&LAW).or_name("massless");
     }
@@ -302,7 +318,7 @@ pub static CONTACT: Table<Contact> = Table::list(
         let Written { at, radius, obstacle, law: (law, massless), .. } = k;
         let on = touching(k.on.as_deref(), k.points, c)?;
         let mount = k.mount.unwrap_or(if obstacle.stop { Mount::Hub } else { Mount::Ground });
-        if obstacle.stop && mount == Mount::Ground {
+        if obstacle.stop && mount != Mount::Hub {
             let help = "leave the mount out, or take a `plane`";
             return Err(Fault::new("mount", "a stop is fixed to the hub").help(help).into());
         }
@@ -310,6 +326,11 @@ pub static CONTACT: Table<Contact> = Table::list(
         {
             let help = "write `on = \"beam@2 m\"` for one place of a beam";
             return Err(Fault::new("at", "is a point of a body, and `on` names none").help(help).into());
+        }
+        if let (Mount::Part(carrier), Touching::Places(places)) = (mount, &on)
+            && places.contains(&carrier)
+        {
+            return Err(Fault::new("mount", "carries the obstacle, and does not touch it").into());
         }
         Ok(Contact { name: name(k.name, &["hub"])?, on, at, radius, mount, obstacle, law, massless })
     }),

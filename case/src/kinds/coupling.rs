@@ -89,7 +89,8 @@ impl Assembly<'_> {
         }
         let points =
             || self.contacts.iter().flat_map(|of| of.points.iter().map(move |point| (point, &of.contact)));
-        let at: Vec<_> = points().map(|((_, station, _), contact)| (*station, contact.mount)).collect();
+        let at: Vec<_> =
+            points().map(|((_, station, _), contact)| (*station, contact.mount.on_hub())).collect();
         if at.is_empty() {
             return Box::new(system);
         }

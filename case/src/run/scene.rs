@@ -3,15 +3,14 @@
 use crate::case::{Case, Subject};
 use crate::hub_beam::HubBeam;
 use crate::kinds::beam::Beam;
-use crate::kinds::contact::OnBeam;
+use crate::kinds::contact::{Mount, OnBeam};
 use crate::kinds::cross_section::Section;
 use crate::space::Space;
-use flexion::hub_beam::Mount;
 use flexion::multibody::{self, Body, Marker};
 use flexion::section::Shape;
 #[cfg(feature = "figures")]
 use flexion_results::plot::Blade;
-use flexion_results::{Contour, Drawn, Part, Scene, Spring};
+use flexion_results::{Carrier, Contour, Drawn, Part, Scene, Spring};
 use std::sync::Arc;
 
 /// Length over height of a beam drawn without knowing its height.
@@ -68,7 +67,7 @@ impl HubBeam {
             in_space: false,
             station: stations(of).last().copied().unwrap_or(self.length),
             points: if of.points.len() > 1 { stations(of) } else { Vec::new() },
-            on_hub: of.contact.mount == Mount::Hub,
+            carrier: if of.contact.mount == Mount::Hub { Carrier::Hub } else { Carrier::Ground },
             obstacle: Arc::clone(&of.contact.obstacle.obstacle),
         };
         self.contacts.iter().map(drawn).collect()
@@ -82,6 +81,8 @@ impl Space {
         let drawn = |count: &usize| {
             let points = self.touching.get(first..first + count)?;
             let contact = self.contacts.get(first)?;
+            let carrier =
+                self.carriers.get(first)?.map_or(Carrier::Ground, |(part, at)| Carrier::Part(part, at));
             first += count;
             let (body, station) = *points.get(count / 2)?;
             // A point along the whole beam has its number behind the name of the contact.
@@ -96,7 +97,7 @@ impl Space {
                 points,
                 size: 0.5 * self.size,
                 in_space: true,
-                on_hub: false,
+                carrier,
                 obstacle: Arc::clone(&contact.obstacle),
             })
         };

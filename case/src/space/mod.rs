@@ -13,7 +13,7 @@ use crate::fault::{Fault, Found, Made};
 use crate::kind::Context;
 use crate::kinds::beam::{BEAMS, Beam, End, FIBRES, Fibre};
 use crate::kinds::body::BODY;
-use crate::kinds::contact::{Contact, Point, Touching, contacts};
+use crate::kinds::contact::{Contact, Mount, Point, Touching, contacts};
 use crate::kinds::coupling::{SPACE, SPACE_WITH_SHEAR};
 use crate::kinds::integrator::Method;
 use crate::kinds::joint::{JOINTS, Joint};
@@ -27,7 +27,6 @@ use crate::places::{Parts, Place};
 use crate::stations::stations;
 use crate::values::{Values, item};
 use flexion::contact::{self as touch, Contacting, Surface};
-use flexion::hub_beam::Mount;
 use flexion::linalg::Vec3;
 use flexion::multibody::{self, Body, Model, Multibody};
 use flexion::system::Fork;
@@ -48,6 +47,8 @@ pub struct Space {
     pub points: Vec<usize>,
     /// The body of each, beams behind bodies, and its station \[m\].
     pub touching: Vec<(usize, f64)>,
+    /// The same of what carries its obstacle, if a part does.
+    pub carriers: Vec<Option<(usize, f64)>>,
     /// The bodies.
     pub bodies: Vec<Body>,
     /// The beams, and as they are built.
@@ -95,7 +96,7 @@ fn points_of(contact: &Contact, parts: &Parts, beams: &[Beam], joints: &[Joint])
         return Err(Fault::new("law", message).help(help).into());
     }
     if contact.mount == Mount::Hub {
-        let message = "a system in space has obstacles that are fixed to the ground, or moved";
+        let message = "a system in space has obstacles that are fixed to the ground, or to a part, or moved";
         return Err(Fault::new(if contact.obstacle.stop { "obstacle" } else { "mount" }, message).into());
     }
     if let Some(key) = contact.obstacle.assumed {
@@ -237,7 +238,9 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     let points: Option<Vec<Vec<Point>>> = contacts.iter().enumerate().map(along).collect();
     let Some(points) = points else { return Err(found.0) };
     let on_nodes = contacts.iter().zip(&points).filter(|(contact, _)| !contact.is_on_axis());
-    let touching = on_nodes.flat_map(|(_, list)| list).map(|(_, place, _)| *place).collect();
+    let touching = on_nodes.flat_map(|(_, list)| list).map(|(_, place, _)| *place);
+    let carriers = contacts.iter().filter_map(Contact::carrier);
+    let touching = touching.chain(carriers).collect();
     let named = Named::of(&joints, &springs, &loads, &masses, touching);
     let build = |(i, mut beam): (usize, Beam)| {
         beam.shear |= shear;
@@ -287,12 +290,13 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
     for (i, load) in loads.iter().enumerate() {
         add("load", i, add_load(&mut model, &parts, load, i));
     }
-    let (mut touching, mut places): (Vec<touch::Contact>, Vec<_>) = Default::default();
+    let (mut touching, mut places, mut carriers): (Vec<touch::Contact>, Vec<_>, Vec<_>) = Default::default();
     for (i, (contact, list)) in contacts.iter().zip(&points).enumerate() {
         for point in list {
             let made = add_point(&mut model, &parts, contact, point).map(|(made, place)| {
                 touching.push(made);
                 places.push(place);
+                carriers.push(parts.carrier(contact));
             });
             add("contact", i, made);
         }
@@ -356,6 +360,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         contacts: touching,
         points,
         touching: places,
+        carriers,
         bodies,
         beams,
         joints,

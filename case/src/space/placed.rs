@@ -40,6 +40,22 @@ impl Placed<'_> {
     }
 }
 
+impl Placed<'_> {
+    /// The number of what is drawn of a part, beams behind bodies, and the station on it \[m\].
+    fn drawn(&self, part: Part) -> (usize, f64) {
+        match part {
+            Part::Section { beam, node } => (self.bodies.len() + beam, self.beams[beam].1.nodes()[node]),
+            Part::Body(body) => (body, 0.0),
+            Part::Ground => (0, 0.0),
+        }
+    }
+
+    /// The same of what carries the obstacle of a contact.
+    pub(super) fn carrier(&self, contact: &Contact) -> Option<(usize, f64)> {
+        contact.carrier().map(|place| self.drawn(self.at(place).0))
+    }
+}
+
 /// The marker of a part with the axes of space at a point.
 fn marker(model: &Model, part: Part, position: Vec3) -> Made<Marker> {
     let space = Frame { position, rotation: Mat3::IDENTITY };
@@ -174,22 +190,25 @@ pub(super) fn add_point(
     (name, place, law): &Point,
 ) -> Made<(touch::Contact, (usize, f64))> {
     let obstacle = Arc::clone(&contact.obstacle.obstacle);
-    let made = |point: usize| touch::Contact { name: name.clone(), point, obstacle, law: *law };
+    let made = |model: &mut Model, point: usize| {
+        if let Some(carrier) = contact.carrier() {
+            model.mount(point, Marker::new(parts.at(carrier).0, Vec3::ZERO));
+        }
+        touch::Contact { name: name.clone(), point, obstacle, law: *law }
+    };
     if let Place::Beam(beam) = *place {
         let middle = 0.5 * parts.beams[beam].0.length;
-        return Ok((made(model.contact_beam(beam, contact.radius)), (parts.bodies.len() + beam, middle)));
+        let point = model.contact_beam(beam, contact.radius);
+        return Ok((made(model, point), (parts.bodies.len() + beam, middle)));
     }
     if let (Place::Station { beam, s }, true) = (*place, contact.is_on_axis()) {
-        return Ok((made(model.contact_station(beam, s, contact.radius)), (parts.bodies.len() + beam, s)));
+        let point = model.contact_station(beam, s, contact.radius);
+        return Ok((made(model, point), (parts.bodies.len() + beam, s)));
     }
     let (part, own) = parts.at(*place);
     let marker = marker(model, part, point(contact.at, own, "at")?)?;
-    let place = match part {
-        Part::Section { beam, node } => (parts.bodies.len() + beam, parts.beams[beam].1.nodes()[node]),
-        Part::Body(body) => (body, 0.0),
-        Part::Ground => (0, 0.0),
-    };
-    Ok((made(model.contact_ball(marker, contact.radius)), place))
+    let point = model.contact_ball(marker, contact.radius);
+    Ok((made(model, point), parts.drawn(part)))
 }
 
 /// Adds a beam and the joints of its ends.

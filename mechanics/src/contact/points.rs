@@ -2,7 +2,7 @@
 
 use super::obstacle::Obstacle;
 use crate::linalg::{Mat3, Matrix, Vec3};
-use crate::system::State;
+use crate::system::{Frame, State};
 
 /// Motion of a point, in the axes in which its obstacle is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -86,9 +86,10 @@ pub trait Points {
         1
     }
 
-    /// Axes, in space and about the origin, in which the motion of point `k` is given: those of space, or of what its obstacle is fixed to.
-    fn axes(&mut self, _k: usize, _s: &State) -> Mat3 {
-        Mat3::IDENTITY
+    /// Frame, in space, in which the motion of point `k` is given, once it has [approached](Points::approach): that of space, or of what
+    /// its obstacle is fixed to.
+    fn frame(&mut self, _k: usize, _s: &State) -> Frame {
+        Frame { position: Vec3::ZERO, rotation: Mat3::IDENTITY }
     }
 
     /// Forgets the forces on all points.

@@ -8,7 +8,7 @@ use super::point_forces::about_third;
 use super::system::HubBeam;
 use crate::contact::{PointMotion, Points, Variation};
 use crate::linalg::{Mat3, Matrix, Vec3};
-use crate::system::State;
+use crate::system::{Frame, State};
 
 impl<C: Coupling> HubBeam<C> {
     /// The same system with stations \[m\] that may touch obstacles, which are boundaries of cells: they are the
@@ -131,11 +131,12 @@ impl<C: Coupling> Points for HubBeam<C> {
         self.contact_points[k].shortening.is_empty()
     }
 
-    fn axes(&mut self, k: usize, s: &State) -> Mat3 {
-        match self.contact_points[k].mount {
+    fn frame(&mut self, k: usize, s: &State) -> Frame {
+        let rotation = match self.contact_points[k].mount {
             Mount::Ground => Mat3::IDENTITY,
             Mount::Hub => about_third(self.kinematics(s).angle),
-        }
+        };
+        Frame { position: Vec3::ZERO, rotation }
     }
 
     fn begin_forces(&mut self) {

@@ -1,6 +1,7 @@
 //! What does not change in a run: the model, the order of its unknowns, and what follows from both.
 
 use super::body::Twist;
+use super::contact_point::ContactPoint;
 use super::error::DependentRow;
 use super::force::angle_between;
 use super::joint::Coordinate;
@@ -32,6 +33,10 @@ pub(super) struct Constants {
     pub(super) lines: Vec<LineDistribution>,
     /// Forces of gravity on the beams.
     pub(super) weight: Vec<f64>,
+    /// Number of the marker of the first contact point.
+    pub(super) first_point: usize,
+    /// Of each contact point the marker that carries its obstacle.
+    pub(super) carriers: Vec<Option<usize>>,
     /// Part of each marker, and its frame from the centre of mass.
     pub(super) markers: Vec<(Part, Frame)>,
     /// Rows that are kept: joint and constraint.
@@ -107,6 +112,18 @@ impl Constants {
             joints.map(|(j, rows)| Link::new([body(j.from.part), body(j.to.part)], rows.len())).collect();
         links.extend(elements);
         links.extend(model.springs.iter().map(|s| Link::new([body(s.from.part), body(s.to.part)], 0)));
+        for point in &model.points {
+            let Some(carrier) = point.carrier.and_then(|on| body(on.part)) else { continue };
+            // Any point of an axis may be the one that touches.
+            match point.beam() {
+                Some(beam) => {
+                    let nodes = chains[beam]..chains[beam] + model.beams[beam].beam.nodes().len();
+                    let link = |node| Link { nodes: [Some(node), Some(carrier)], rows: 0, along: false };
+                    links.extend(nodes.map(link));
+                }
+                None => links.push(Link::new([body(point.at.part), Some(carrier)], 0)),
+            }
+        }
         let plan = layout(&sizes, bodies, &links);
         let place: Vec<usize> = plan.first[..bodies].iter().map(|first| first / 6).collect();
         let coordinates: Vec<_> = model.joints.iter().map(|joint| joint.kind.coordinate()).collect();
@@ -119,13 +136,14 @@ impl Constants {
                 })
             })
             .collect();
-        // Two markers for each joint, two for each spring, one for each load and each contact point.
+        // Two markers for each joint, two for each spring, one for each load and each contact point, and one for each obstacle that a part carries.
         let joints = model.joints.iter().flat_map(|j| [j.from, j.to]);
         let springs = model.springs.iter().flat_map(|s| [s.from, s.to]);
         let markers = joints
             .chain(springs)
             .chain(model.loads.iter().map(|load| load.at))
-            .chain(model.points.iter().map(|point| point.at));
+            .chain(model.points.iter().map(|point| point.at))
+            .chain(model.points.iter().filter_map(|point| point.carrier));
         let markers: Vec<(Part, Frame)> = markers
             .map(|marker| {
                 let centre = match marker.part {
@@ -168,6 +186,8 @@ impl Constants {
             structures: plan.structures,
             breaks: ordered(breaks),
             place,
+            first_point: 2 * (model.joints.len() + model.springs.len()) + model.loads.len(),
+            carriers: carriers(&model, markers.len()),
             markers,
             rows,
             of_joint,
@@ -288,6 +308,18 @@ impl Constants {
         let axis = self.axes_of(2 * k, from).column(2);
         axis.dot(b.unwrap_or_default()) - axis.dot(a.unwrap_or_default())
     }
+}
+
+/// The number of the marker that carries the obstacle of each contact point, the last of so many.
+fn carriers(model: &Model, markers: usize) -> Vec<Option<usize>> {
+    let mut next = markers - model.points.iter().filter(|point| point.carrier.is_some()).count();
+    let mut number = |point: &ContactPoint| {
+        point.carrier.map(|_| {
+            next += 1;
+            next - 1
+        })
+    };
+    model.points.iter().map(&mut number).collect()
 }
 
 /// The sets of multipliers. A kept angle that is not held has none of the rows of a joint: its equation is λ = 0, as that of friction

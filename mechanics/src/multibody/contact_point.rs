@@ -11,6 +11,8 @@ pub(super) struct ContactPoint {
     pub radius: f64,
     /// Where on the axis of a beam it is, which needs no node there; `None` of a point of a body or of a section.
     pub axis: Option<Along>,
+    /// Frame, on another part, to which the obstacle is fixed; `None` of one that is given in space.
+    pub carrier: Option<Marker>,
 }
 
 /// A point of the axis of a beam.

@@ -11,6 +11,7 @@
 use super::body::Placed;
 use super::rotation::{frame, tangent};
 use super::slender::Triad;
+use crate::contact::Variation;
 use crate::linalg::{Mat3, Vec3};
 use crate::system::Frame;
 
@@ -221,6 +222,26 @@ impl Pose {
     #[inline(always)]
     pub(super) fn axis(&self, j: usize) -> Vec3 {
         self.axes.column(j)
+    }
+
+    /// A point of space in its axes, from its position.
+    #[inline]
+    pub(super) fn within(&self, x: Vec3) -> Vec3 {
+        self.axes.transpose() * (x - self.position)
+    }
+
+    /// Its motion by each velocity that moves it, of a marker whose [transport](Pose::transport) was written.
+    pub(super) fn variations(&self) -> impl Iterator<Item = Variation> {
+        let column =
+            |of: &[[f64; MOST]; 6], first: usize, j: usize| Vec3([0, 1, 2].map(|i| of[first + i][j]));
+        (0..self.count).map(move |j| Variation {
+            unknown: self.numbers[j],
+            position: column(&self.jacobian, 0, j),
+            velocity: column(&self.transport, 0, j),
+            rotation: column(&self.jacobian, 3, j),
+            spin: column(&self.transport, 3, j),
+            ..Variation::default()
+        })
     }
 
     /// Adds c Jᵀ w of the force and moment w.

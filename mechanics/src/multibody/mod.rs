@@ -28,6 +28,7 @@
 //! | `force` | springs, dampers, actuators and loads as forces between two markers |
 //! | `contact_point`, `on_axis` | a point that may touch obstacles; one on the axis of a beam, at a station or nearest to an obstacle |
 //! | `contact_points` | what contacts ask of them |
+//! | `mounted` | the same of obstacles that parts carry |
 //! | `layout` | order of bodies, nodes of beams and multipliers along the tree |
 //! | `model` | what a user builds, with its faults |
 //! | `consistency` | positions, ranks and velocities at the start |
@@ -63,6 +64,7 @@ mod line_law;
 mod line_load;
 mod marker;
 mod model;
+mod mounted;
 mod observed;
 mod on_axis;
 mod reason;

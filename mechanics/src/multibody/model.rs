@@ -102,7 +102,7 @@ impl Model {
 
     /// The same of a ball of this radius \[m\] about the point, which slides and rolls on obstacles with its surface.
     pub fn contact_ball(&mut self, at: Marker, radius: f64) -> usize {
-        self.points.push(ContactPoint { at, radius, axis: None });
+        self.points.push(ContactPoint { at, radius, axis: None, carrier: None });
         self.points.len() - 1
     }
 
@@ -120,8 +120,16 @@ impl Model {
 
     fn contact_along(&mut self, beam: usize, radius: f64, axis: Along) -> usize {
         let at = Marker::new(Part::Section { beam, node: 0 }, [0.0; 3]);
-        self.points.push(ContactPoint { at, radius, axis: Some(axis) });
+        self.points.push(ContactPoint { at, radius, axis: Some(axis), carrier: None });
         self.points.len() - 1
+    }
+
+    /// Fixes the obstacle of the contact point of this number to a part: its surface is given in the frame `carrier`, and what acts on the
+    /// point acts back on the part.
+    pub fn mount(&mut self, point: usize, carrier: Marker) {
+        if let Some(point) = self.points.get_mut(point) {
+            point.carrier = (carrier.part != Part::Ground).then_some(carrier);
+        }
     }
 
     /// Adds a joint at a `point` of space, where both markers are at the start: their third axis along `axis`, their first
@@ -215,13 +223,16 @@ impl Model {
             let sound = point.radius >= 0.0 && point.radius.is_finite();
             let fault =
                 (!sound).then_some(PartFault::Negative { what: "radius", value: point.radius, unit: "m" });
-            self.examine(
-                ("contact point", k),
-                &format!("contact point {k}"),
-                fault,
-                &[point.at],
-                &mut names,
-            )?;
+            let of_beam = |marker: &Marker| match marker.part {
+                Part::Section { beam, .. } => Some(beam),
+                _ => None,
+            };
+            let same =
+                point.carrier.is_some_and(|on| of_beam(&on).is_some() && of_beam(&on) == of_beam(&point.at));
+            let fault = fault.or_else(|| same.then_some(PartFault::SamePart));
+            let markers: Vec<Marker> = [point.at].into_iter().chain(point.carrier).collect();
+            let name = format!("contact point {k}");
+            self.examine(("contact point", k), &name, fault, &markers, &mut names)?;
         }
         Ok(())
     }

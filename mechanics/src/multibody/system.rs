@@ -25,6 +25,7 @@ use super::on_axis::OnAxis;
 use super::rotation::{Quaternion, rate};
 use super::row::{Row, Value, Wrench};
 use super::{consistency, start};
+use crate::contact::Variation;
 use crate::linalg::{Mat3, Matrix, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
@@ -58,6 +59,8 @@ pub struct Multibody {
     pub(super) sampled: Vec<Sampled>,
     /// Of the states that were judged.
     pub(super) bending: Bending,
+    /// How a contact point moves, while its curvature is added.
+    pub(super) moved: Vec<Variation>,
     time: f64,
 }
 
@@ -141,6 +144,7 @@ impl Multibody {
             on_axis,
             sampled,
             bending: Bending::default(),
+            moved: Vec::with_capacity(12),
             time: f64::NAN,
         }
     }
@@ -168,10 +172,10 @@ impl Multibody {
         self.constants.size.v - self.constants.size.lambda
     }
 
-    /// Places bodies and markers, but for those of contact points, each of which is placed where it is looked at.
+    /// Places bodies and markers, but for those of contact points and their obstacles, each of which is placed where it is looked at.
     pub(super) fn place(&mut self, s: &State) {
         let Multibody { constants, placed, poses, motions, time, .. } = self;
-        let own = poses.len() - constants.model.points.len();
+        let own = constants.first_point;
         for (i, placed) in placed.iter_mut().enumerate() {
             *placed = Placed::new(&s.q[7 * i..], &s.v[6 * i..], &s.a[6 * i..]);
         }
@@ -304,7 +308,7 @@ impl Multibody {
             let acting = (law.law.as_ref(), s.time(), -self.part);
             sampled.add_tangent(acting, [&s.q[i..], &s.v[j..]], &w, (j, out));
         }
-        let own = self.poses.len() - model.points.len();
+        let own = constants.first_point;
         self.poses[..own].iter_mut().for_each(|pose| pose.transport());
         let ground = Pose::default();
         self.interactions(s, true, |a, b, interaction| {

@@ -17,6 +17,7 @@ mod free_motions;
 mod heavy_top;
 mod jumps;
 mod mechanisms;
+mod mounted;
 mod neutral;
 mod obstacles;
 mod paths;

@@ -16,19 +16,19 @@ use flexion::system::{Dynamics, Frame, State};
 use flexion::verify::dynamics;
 use std::sync::Arc;
 
-const RUBBING: ContactForce =
+pub(super) const RUBBING: ContactForce =
     ContactForce { stiffness: 400.0, exponent: 1.5, factor: 0.4, friction: 0.6, slip_speed: 0.7 };
 
 /// A moving obstacle, whose boundary is at the distance `gap` from where it is for a radius of 0.5.
-type Made = dyn Fn(f64) -> Arc<dyn Obstacle>;
+pub(super) type Made = dyn Fn(f64) -> Arc<dyn Obstacle>;
 
-fn moved() -> Option<Translation> {
+pub(super) fn moved() -> Option<Translation> {
     let displacement = Arc::new(Expression::new("0.1*sin(3*t)", "t", 1.0).unwrap());
     Some(Translation { direction: Vec3([0.0, 0.6, 0.8]), displacement })
 }
 
 /// Forces, rows and tangents of a contact that is 5 cm deep, against differences.
-fn conforms(model: &Model, made: &Made, deform: impl Fn(&Multibody, &mut State)) {
+pub(super) fn conforms(model: &Model, made: &Made, deform: impl Fn(&Multibody, &mut State)) {
     for law in [Law::Force(RUBBING), Law::Constraint { restitution: 0.2, friction: 0.6 }] {
         let system = |radius: f64| {
             let contact = Contact { name: "touch".into(), point: 0, obstacle: made(radius), law };
@@ -86,7 +86,7 @@ fn station() -> Station {
     Station { position: Vec3([0.0; 3]), tangent: Vec3([1.0, 0.0, 0.0]), normal: Vec3([0.0, 1.0, 0.0]) }
 }
 
-fn flexible(elements: usize) -> Flexible {
+pub(super) fn flexible(elements: usize) -> Flexible {
     let properties = Properties::principal([2e3, 20.0, 30.0, 40.0], 1.2, [0.02, 0.0, 0.0]);
     Flexible::new("beam", Beam::straight(station(), 2.0, elements, properties).unwrap())
 }

@@ -35,8 +35,10 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         self.inner.observe(s, sink);
         let mut stored = None;
         let directions = self.inner.directions();
-        self.each(s, |placed, near, forces| {
-            let Contact { name, law, .. } = &placed.contact;
+        for placed in &self.contacts {
+            let near = placed.proximity(&mut self.inner, s);
+            let forces = placed.forces(&near, s, self.memory);
+            let Contact { name, law, point, .. } = &placed.contact;
             let channel = |quantity, unit: &'static str, what| {
                 let meaning = format!("{what} of the contact {name}");
                 Channel::new(Role::Secondary, format!("{name}.{quantity}"), unit, meaning)
@@ -52,7 +54,8 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
                     sink.put(first + 0.0, || channel("friction", "N", "friction force"));
                 } else {
                     let [t1, t2] = near.surface.tangents;
-                    let force = [0, 1, 2].map(|k| first * t1[k] + second * t2[k] + 0.0);
+                    let force = self.inner.frame(*point, s).rotation * (first * t1 + second * t2);
+                    let force = force.0.map(|x| x + 0.0);
                     let names = ["friction.x", "friction.y", "friction.z"];
                     sink.put_all(force, names, |name| channel(name, "N", "friction force"));
                 }
@@ -63,7 +66,7 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             if let Law::Force(force) = law {
                 *stored.get_or_insert(0.0) += force.stored(-near.surface.gap);
             }
-        });
+        }
         if let Some(stored) = stored {
             let channel = || Channel::new(Role::Energy, "energy.contact", "J", "energy stored in contacts");
             sink.put(stored, channel);
@@ -100,10 +103,10 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
         for placed in &self.contacts {
             let near = placed.proximity(&mut self.inner, s);
             let force = placed.forces(&near, s, self.memory).vector(&near.surface);
-            let axes = self.inner.axes(placed.contact.point, s);
+            let Frame { position, rotation: axes } = self.inner.frame(placed.contact.point, s);
             let touching = near.motion.position - near.motion.radius * near.surface.normal;
             let name = placed.contact.name.clone();
-            let (place, force) = (axes * touching, axes * force);
+            let (place, force) = (position + axes * touching, axes * force);
             all.push(PointForce { name, place, force, ..PointForce::default() });
         }
         all
