@@ -6,7 +6,7 @@ use super::fault::{At, Fault, Faults, Found, Made};
 use super::features;
 use super::kind::{Context, Keys};
 use super::kinds::basis::{self, Bases};
-use super::kinds::contact::{Contact, OnBeam, Touching, contacts};
+use super::kinds::contact::{Contact, Mount, OnBeam, Touching, contacts};
 use super::kinds::coupling::{Coupling, SPACE, SPACE_WITH_SHEAR, fits_whole_curve};
 use super::kinds::cross_section::Section;
 use super::kinds::damping::DAMPING;

@@ -20,6 +20,9 @@ mod impact;
 mod obstacle;
 mod points;
 
+/// Gap at which a contact touches, over the length of the system.
+pub(crate) const TOUCHING: f64 = 1e-13;
+
 pub use augmented::Augmented;
 pub use cone::{FEW, RowLaw, Unresolved};
 pub use contacting::{Contact, Contacting, Law};

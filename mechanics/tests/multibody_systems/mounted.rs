@@ -177,7 +177,7 @@ fn a_row_of_balls_passes_on_a_blow_as_the_equations_along_a_line_do() {
     let force = ContactForce { stiffness: 1e7, exponent: 1.5, factor: 0.0, friction: 0.0, slip_speed: 1.0 };
     for count in [3, 5] {
         let mut system = row(count, Law::Force(force));
-        let (s, watch) = run(&mut system, &radau(1e-9), 0.04, None);
+        let (s, watch) = run(&mut system, &radau(1e-12), 0.04, None);
         assert!(watch.imbalance < 1e-8, "{:e}", watch.imbalance);
         let expected = chain(count, 1e7);
         for (found, expected) in velocities(&system, &s).iter().zip(&expected) {

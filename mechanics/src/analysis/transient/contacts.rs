@@ -2,9 +2,9 @@
 
 use super::chatter::Chatter;
 use super::ending::RunError;
-use super::locate::{Locator, TOUCHING, lowest};
+use super::locate::{Locator, lowest};
 use super::{Event, EventKind};
-use crate::contact::{Bounds, Impact, ImpactMap, Neglected};
+use crate::contact::{Bounds, Impact, ImpactMap, Neglected, TOUCHING};
 use crate::system::{Mode, RowWeights, Set, State, System};
 
 /// Writes the gaps, or what is asked of them, at a time within a step.

@@ -21,11 +21,10 @@
 //! by steps from the same state until φ vanishes to rounding.
 
 use super::ending::{RunError, failed};
+use crate::contact::TOUCHING;
 use crate::integrator::{Accelerations, Counters, Integration, Span};
 use crate::system::{Mode, RowWeights, Set, Side, State, System, is_active};
 
-/// Gap at which a contact touches, over the length of the system.
-pub(super) const TOUCHING: f64 = 1e-13;
 /// Size of a force or sliding velocity that counts as zero, over the largest in the step.
 const VANISHING: f64 = 1e-12;
 /// Least scale of an indicator: a number that is zero to rounding whatever its unit.
@@ -59,6 +58,10 @@ pub(super) struct Locator {
     /// At the end of the part of the step in which dips are sought.
     far: Values,
     signs: Vec<f64>,
+    /// Gaps of continuous forces among the model's own indicators, and those of them that neither open nor close at the start of the step, within rounding: what
+    /// rounding makes of them is no touch.
+    is_gap: Vec<bool>,
+    rests: Vec<bool>,
     /// Open contacts that touch and do not approach at the start of the step: open as they are, they separate.
     leaving: Vec<bool>,
     /// Time and side of the end of the attempted step.
@@ -158,8 +161,12 @@ impl Locator {
         let values = || Values::new(sets.len(), own);
         let (start, end, far, signs) = (values(), values(), values(), vec![1.0; own]);
         let leaving = vec![false; sets.len()];
+        let mut is_gap = vec![false; own];
+        system.contacts(state).iter().filter_map(|contact| contact.indicator).for_each(|k| is_gap[k] = true);
         Some(Locator {
             leaving,
+            rests: vec![false; own],
+            is_gap,
             whole: (state.t, Side::Right),
             own,
             length,
@@ -287,7 +294,7 @@ impl Locator {
         let mut later: Option<f64> = None;
         for k in 0..self.own {
             let (left, rate) =
-                (self.signs[k] * self.end.indicator[m + k], self.signs[k] * self.end.rate[m + k]);
+                (self.own_value(self.end.indicator[m + k], k), self.signs[k] * self.end.rate[m + k]);
             let time = -left / rate;
             if left > 0.0 && rate < 0.0 && time <= TOGETHER * h {
                 later = Some(later.unwrap_or(0.0).max(time));
@@ -317,7 +324,7 @@ impl Locator {
     pub(super) fn fired(&mut self) -> Vec<usize> {
         let m = self.sets.len();
         let fired: Vec<usize> =
-            (0..self.own).filter(|k| self.signs[*k] * self.end.indicator[m + k] <= 0.0).collect();
+            (0..self.own).filter(|k| self.own_value(self.end.indicator[m + k], *k) <= 0.0).collect();
         // An indicator that is zero now counts for the other side.
         fired.iter().for_each(|k| self.signs[*k] = -self.signs[*k]);
         fired
@@ -346,6 +353,13 @@ impl Locator {
         }
         let still =
             VANISHING * self.start.rate[..m].iter().chain(&from.v).fold(0.0_f64, |m, x| m.max(x.abs()));
+        for k in 0..self.own {
+            let (gap, rate) = (self.start.indicator[m + k], self.start.rate[m + k]);
+            self.rests[k] = self.is_gap[k] && gap.abs() < TOUCHING * self.length && rate.abs() <= still;
+            if self.rests[k] {
+                self.signs[k] = 1.0;
+            }
+        }
         for i in 0..m {
             let touches =
                 self.start.indicator[i] == self.start.gap[i] && self.start.gap[i] <= self.start.zero[i];
@@ -372,8 +386,13 @@ impl Locator {
 
     fn least(&self, values: &Values) -> f64 {
         let m = self.sets.len();
-        let own = values.indicator[m..].iter().zip(&self.signs).map(|(x, sign)| sign * x / SMALLEST);
+        let own = (0..self.own).map(|k| self.own_value(values.indicator[m + k], k) / SMALLEST);
         own.fold(self.least_row(values), f64::min)
+    }
+
+    /// The model's indicator `k`, positive while nothing happens.
+    fn own_value(&self, x: f64, k: usize) -> f64 {
+        if self.rests[k] { x + TOUCHING * self.length } else { self.signs[k] * x }
     }
 
     fn least_row(&self, values: &Values) -> f64 {

@@ -22,18 +22,19 @@
 //! impose the rows, `analysis::transient` locates and resolves impacts. A [`Law::Force`] is a load; its closing speed is written into
 //! `State::memory` by the event g = 0 at which a contact begins.
 
+mod forces;
 mod observed;
 mod proximity;
 
 use super::force::ContactForce;
-use super::obstacle::{Obstacle, Surface};
+use super::obstacle::Obstacle;
 use super::points::{Curve, Points, Variation};
-use crate::linalg::vector::inner;
 use crate::linalg::{Matrix, Structure, Vec3};
 use crate::system::{
     Break, Corotation, Crossing, Dynamics, Events, Jump, Limit, Mode, NotSet, Observed, Parameter, Power,
     RowWeights, Set, Size, State, Steady, StiffnessForm, VisitRow, Weights, ordered,
 };
+use forces::Forces;
 use proximity::Proximity;
 use std::ops::Range;
 use std::sync::Arc;
@@ -103,17 +104,6 @@ struct Placed {
     friction: Range<usize>,
 }
 
-/// Normal force and friction of a contact at a state, with their derivatives by a variation.
-struct Forces {
-    normal: f64,
-    friction: [f64; 2],
-    /// ∂N by g and ġ.
-    by_gap: [f64; 2],
-    /// ∂T by N, and by the sliding velocity.
-    by_normal: [f64; 2],
-    by_sliding: [[f64; 2]; 2],
-}
-
 impl Placed {
     /// The point and the surface before it at a state.
     fn proximity(&self, model: &mut impl Points, s: &State) -> Proximity {
@@ -131,74 +121,6 @@ impl Placed {
         let Contact { point, obstacle, law, .. } = &self.contact;
         let away = matches!(law, Law::Force(_)) && Proximity::is_away(model, *point, obstacle.as_ref(), s);
         (!away).then(|| self.proximity(model, s))
-    }
-
-    /// The forces at a state.
-    fn forces(&self, near: &Proximity, s: &State, memory: usize) -> Forces {
-        match &self.contact.law {
-            Law::Constraint { .. } => Forces {
-                normal: s.lambda[self.place],
-                friction: [0, 1].map(|i| self.friction.clone().nth(i).map_or(0.0, |row| s.lambda[row])),
-                by_gap: [0.0; 2],
-                by_normal: [0.0; 2],
-                by_sliding: [[0.0; 2]; 2],
-            },
-            Law::Force(law) => {
-                let normal = law.normal(-near.surface.gap, -near.rate, s.memory[memory + self.place]);
-                let (part, slope) = law.friction(near.sliding);
-                Forces {
-                    normal: normal.value,
-                    friction: part.map(|part| part * normal.value),
-                    by_gap: [-normal.by_indentation, -normal.by_rate],
-                    by_normal: part,
-                    by_sliding: slope.map(|row| row.map(|x| x * normal.value)),
-                }
-            }
-        }
-    }
-}
-
-impl Placed {
-    /// Power lost in friction and damping.
-    fn lost(&self, near: &Proximity, forces: &Forces) -> f64 {
-        let friction = -inner(forces.friction, near.sliding);
-        let Law::Force(law) = &self.contact.law else { return friction };
-        let elastic = law.normal(-near.surface.gap, 0.0, 0.0).value;
-        friction - (forces.normal - elastic) * near.rate
-    }
-}
-
-impl Forces {
-    fn vector(&self, surface: &Surface) -> Vec3 {
-        let ([first, second], [t1, t2]) = (self.friction, surface.tangents);
-        self.normal * surface.normal + first * t1 + second * t2
-    }
-
-    fn vanish(&self) -> bool {
-        self.normal == 0.0 && self.friction == [0.0; 2]
-    }
-
-    /// Change of the force and its moment by changes of the `position` of the point, its `velocity` and the `spin`.
-    fn change(&self, near: &Proximity, [position, velocity, spin]: [Vec3; 3]) -> [Vec3; 2] {
-        let (Surface { normal: n, tangents: [t1, t2], .. }, radius) = (near.surface, near.motion.radius);
-        let [dn, d1, d2] = near.turned(position);
-        let gap = n.dot(position);
-        let rate = dn.dot(near.velocity) + n.dot(velocity);
-        let touching = if radius == 0.0 {
-            velocity
-        } else {
-            velocity - radius * spin.cross(n) - radius * near.motion.spin.cross(dn)
-        };
-        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| dt.dot(near.touching) + t.dot(touching));
-        let normal = self.by_gap[0] * gap + self.by_gap[1] * rate;
-        let [first, second] = [0, 1].map(|i| self.by_normal[i] * normal + inner(self.by_sliding[i], sliding));
-        let turned = self.normal * dn + self.friction[0] * d1 + self.friction[1] * d2;
-        let force = normal * n + first * t1 + second * t2 + turned;
-        if radius == 0.0 {
-            return [force, Vec3([0.0; 3])];
-        }
-        let turned = dn.cross(self.vector(&near.surface));
-        [force, -radius * n.cross(force) - radius * turned]
     }
 }
 
@@ -573,9 +495,10 @@ impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
         let own: Vec<usize> = fired.iter().copied().filter(|k| *k < self.indicators).collect();
         let crossing = if own.is_empty() { Crossing::Restart } else { self.inner.cross(&own, s) };
         let mut closing = vec![0.0; self.forces()];
+        let length = self.length();
         self.each(s, |placed, near, _| {
             if let Law::Force(_) = placed.contact.law {
-                closing[placed.place] = (-near.rate).max(0.0);
+                closing[placed.place] = near.closing_speed(length);
             }
         });
         for &k in fired.iter().filter(|k| **k >= self.indicators) {

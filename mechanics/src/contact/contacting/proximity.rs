@@ -1,9 +1,13 @@
 //! A point and the surface before it: gap, sliding velocity and their rates.
 
+use crate::contact::TOUCHING;
 use crate::contact::obstacle::{Obstacle, Surface};
 use crate::contact::points::{Curve, PointMotion, Points};
 use crate::linalg::Vec3;
 use crate::system::State;
+
+/// Square of the speed over twice the acceleration and the way, up to which one is what the other makes of it, twice that of a constant acceleration.
+const AT_REST: f64 = 4.0;
 
 /// A point and the surface before it.
 pub(super) struct Proximity {
@@ -44,6 +48,13 @@ impl Proximity {
         model.approach(k, s, obstacle);
         let placed = model.position(k, s);
         placed.is_some_and(|(position, radius)| obstacle.surface(position, s.time()).gap > radius)
+    }
+
+    /// The speed −ġ with which it touches; 0 where it has none but what its acceleration makes of a rounding of the gap, in a system of this `length` \[m\]: a
+    /// contact that begins at rest.
+    pub fn closing_speed(&self, length: f64) -> f64 {
+        let least = AT_REST * self.acceleration().abs() * TOUCHING * length;
+        if self.rate < 0.0 && self.rate * self.rate > least { -self.rate } else { 0.0 }
     }
 
     /// g̈
