@@ -4,6 +4,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { recoloured, styled } from "./colours";
 import type { Room } from "./room";
 import { KINDS, type Part, type Scene, type Section } from "./scene";
 import { nice, text } from "./text";
@@ -46,8 +47,7 @@ const directions: Record<View, [THREE.Vector3, THREE.Vector3]> = {
 };
 
 /** Colours by the names of the style sheet. */
-const colour = (name: string) =>
-  new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+const colour = (name: string) => new THREE.Color(styled(name));
 
 /** One renderer a canvas: browsers allow few of them. */
 const renderers = new WeakMap<HTMLCanvasElement, THREE.WebGLRenderer>();
@@ -296,7 +296,12 @@ export class Stage {
     this.controls.addEventListener("change", () => this.moving || this.render());
     const observer = new ResizeObserver(() => this.resize());
     observer.observe(canvas.parentElement!);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint(), { signal });
+    recoloured(() => {
+      this.paint();
+      this.render();
+      // Chromium prints the picture as it was when it was last read.
+      canvas.toDataURL();
+    }, signal);
     signal.addEventListener("abort", () => {
       observer.disconnect();
       this.controls.dispose();

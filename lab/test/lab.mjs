@@ -338,6 +338,46 @@ const journeys = {
     const bytes = await page.pdf();
     assert.ok(bytes.length > 20_000, "there is a picture in the print");
   },
+  async "what is dark on the screen is light on paper"(page) {
+    await page.goto(`${lab}#case=falling_pendulum`);
+    await answered(page);
+    await page.setViewportSize({ width: 794, height: 1123 });
+    if ((await page.getAttribute("#play", "aria-label")) === "Pause") await page.click("#play");
+    // A number for each picture.
+    const drawn = () => page.$$eval("#canvas, .panel canvas", (all) => all.map((canvas) => [...canvas.toDataURL()].reduce((sum, c) => (31 * sum + c.charCodeAt(0)) | 0, 0)));
+    const event = (name) => page.evaluate((name) => new Promise((resolve) => (dispatchEvent(new Event(name)), setTimeout(resolve))), name);
+    const light = await drawn();
+    await page.emulateMedia({ colorScheme: "dark" });
+    await page.waitForTimeout(100);
+    const dark = await drawn();
+    assert.ok(dark.every((picture, i) => picture !== light[i]), "dark pictures are others");
+    await event("beforeprint");
+    assert.deepEqual(await drawn(), light);
+    await page.emulateMedia({ colorScheme: "dark", media: "print" });
+    assert.deepEqual(await page.evaluate(faint), [], "the ink is dark");
+    assert.equal(await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor), "rgb(255, 255, 255)");
+    await page.emulateMedia({ colorScheme: "dark", media: "screen" });
+    await event("afterprint");
+    await page.waitForTimeout(100);
+    assert.deepEqual(await drawn(), dark);
+  },
+  async "nothing moves by itself where less motion is preferred"(page) {
+    await page.emulateMedia({ reducedMotion: "reduce" });
+    const time = () => page.$eval("#scrubber", (scrubber) => Number(scrubber.value));
+    for (const kind of ["", "&do=modes"]) {
+      await page.goto("about:blank");
+      await page.goto(`${lab}#case=p1_spin_up_4${kind}`);
+      await answered(page);
+      const before = await time();
+      await page.waitForTimeout(300);
+      assert.equal(await time(), before, `${kind} it stands still`);
+      const fading = () => (document.querySelector("#result").classList.toggle("stale"), document.getAnimations().length);
+      assert.deepEqual([await page.evaluate(fading), await page.evaluate(fading)], [0, 0], "an old answer fades at once");
+      await page.click("#play");
+      await page.waitForTimeout(300);
+      assert.notEqual(await time(), before, `${kind} it plays when it is asked to`);
+    }
+  },
   async "back leads to the case before"(page) {
     await page.goto(`${lab}#case=p1_spin_up_4`);
     await answered(page);
