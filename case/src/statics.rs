@@ -133,8 +133,11 @@ impl Reading {
             }
         };
         let twice = |of: &Reading| of.changed(&of.case.finer()).map_err(|_| "it is too fine".to_owned());
-        let finer = twice(self).and_then(|finer| Ok((followed(&finer)?, finer)));
-        let (fine, finer) = match why.map_or(finer, Err) {
+        let found = match why {
+            Some(why) => Err(why),
+            None => twice(self).and_then(|finer| Ok((followed(&finer)?, finer))),
+        };
+        let (fine, finer) = match found {
             Ok(found) => found,
             Err(why) => {
                 path.unknown = Some(why);

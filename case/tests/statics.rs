@@ -107,6 +107,20 @@ fn errors_of_a_path_are_stated() {
 /// A follower force of 13 EI/L² on a cantilever in space, where it flutters: the search for a stable equilibrium can be stopped, and the
 /// time that it takes is that of the run.
 #[test]
+fn a_finer_path_that_costs_too_much_is_not_followed() {
+    let reading = written::reading(COLUMN, &["basis.elements=400"]);
+    let plan = Plan::to(0.5);
+    let mut path = reading.load_path(&plan, |_, _| true).unwrap();
+    let mut followed = 0;
+    reading.estimate_path_errors(&mut path, &plan, Effort::Auto, |_, _| {
+        followed += 1;
+        true
+    });
+    assert!(path.unknown.as_ref().is_some_and(|why| why.contains("--error full")), "{:?}", path.unknown);
+    assert_eq!(followed, 0);
+}
+
+#[test]
 fn a_search_for_a_stable_equilibrium_can_be_stopped() {
     let case = "
 initial = { kind = 'static' }

@@ -128,12 +128,15 @@ export class Answer {
     if (reply.status === "failed") add("failed", `The run stopped early: ${reply.message ?? "no reason is given"}`);
     if (reply.status === "given-up" && reply.results) add("doubt", `This answer is not whole: ${(reply.message ?? "it was given up").replace(/\.$/, "")}.`);
     if (pin) add("pinned", "Dashed: the pinned answer.");
-    const trust = reply.summary?.trust;
+    const { trust, errors } = reply.summary ?? {};
     const end = reply.summary?.end_time;
     if (trust?.estimated && trust.until !== null && trust.until !== undefined && end !== undefined && trust.until < end) {
       add("doubt", `Errors are known and small until ${steady(trust.until)} s${trust.column ? `, then that of ${trust.column} grows` : ""}. What lies behind is shaded.`);
-    } else if (trust && trust.estimated === false && trust.reason) {
-      add("dim", `Errors are not known: ${unestimated(reply) ? "it takes more work to estimate them than is done without a click" : trust.reason}.`);
+    }
+    // Of a run, or of a path of equilibria.
+    const { estimated, reason } = trust ?? errors ?? {};
+    if (estimated === false && reason) {
+      add("dim", `Errors are not known: ${unestimated(reply) ? "it takes more work to estimate them than is done without a click" : reason}.`);
     }
     const warnings = [...new Set([...(reply.warnings ?? []), ...(reply.summary?.warnings ?? [])])];
     if (warnings.length === 0) return;

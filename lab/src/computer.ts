@@ -38,6 +38,8 @@ const PER_SECOND = 1e6;
 const MOST = 1e9;
 /** What is asked without a click is ended after this time [s], whatever was counted. */
 const PATIENCE = 15;
+/** A case that takes longer to be read than this is not read without a click [s]: what it will take is not counted before it has been read. */
+const READING = 3;
 /** Reading a case that takes longer than this is told [ms]. */
 const SOON = 300;
 /** An older request that takes longer than this is not waited for [s]. */
@@ -118,7 +120,7 @@ export class Computer {
 
   /** The text with changes. */
   async change(text: string, set: string[], files: Record<string, string>): Promise<string> {
-    const reply = await this.quick.ask({ do: "change", case: text, set, files, limits: this.limits(false) }, PATIENCE);
+    const reply = await this.quick.ask({ do: "change", case: text, set, files, limits: this.limits() }, this.lifted ? PATIENCE : READING);
     if (reply.case === undefined) {
       const [problem] = reply.problems ?? [];
       throw new Error(problem ? `${problem.key ? `${problem.key}: ` : ""}${problem.message}` : (reply.message ?? "The case cannot be changed so."));
@@ -129,7 +131,7 @@ export class Computer {
   /** How a text differs from another, as changes; nothing where that cannot be said. */
   async difference(text: string, from: string, files: Record<string, string>): Promise<string[] | null | undefined> {
     if (text === from) return [];
-    const { set } = await this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits(false) }, PATIENCE);
+    const { set } = await this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits() }, this.lifted ? PATIENCE : READING);
     return set && Object.entries(set).map(([key, value]) => `${key}=${bare(value)}`);
   }
 
@@ -157,7 +159,7 @@ export class Computer {
   private fell(error: unknown) {
     if (error instanceof Stopped && error.why === "stopped") return;
     // Time alone does not make a case too large for a click.
-    if (error instanceof Stopped && error.why === "late" && !this.lifted) return this.told.said(`This takes more than ${PATIENCE} s.`, undefined, "compute");
+    if (error instanceof Stopped && error.why === "late" && !this.lifted) return this.told.said(error.message, undefined, "compute");
     const what = error instanceof Error ? error.message : String(error);
     this.told.failed(`The engine stopped: ${what}. It has been started anew; change the case and it computes again.`);
   }
@@ -173,7 +175,7 @@ export class Computer {
     let { text } = asked;
     const { files, set } = asked;
     if (set?.length) {
-      const reply = await this.quick.ask({ do: "change", case: text, files, set, limits: this.limits(false) }, PATIENCE);
+      const reply = await this.read({ do: "change", case: text, files, set });
       if (reply.case === undefined) {
         this.told.checked(reply, text, asked);
         return;
@@ -181,7 +183,7 @@ export class Computer {
       text = reply.case;
     }
     const { stops } = this;
-    const reply = await this.check(text, files);
+    const reply = await this.read({ do: "check", case: text, files });
     if (stops !== this.stops) return;
     const ready = this.told.checked(reply, text, asked);
     if (reply.status === "given-up") return void this.fine(reply);
@@ -196,12 +198,12 @@ export class Computer {
     await this.answer(ready);
   }
 
-  /** Reads the case; where that takes long it is told, and can be stopped. */
-  private async check(text: string, files: Record<string, string>): Promise<Reply> {
+  /** Asks what reads the case; where that takes long it is told, and can be stopped. */
+  private async read(request: Request): Promise<Reply> {
     this.reading = true;
     const telling = setTimeout(() => this.told.said("reading the case …", undefined, "stop"), SOON);
     try {
-      return await this.quick.ask({ do: "check", case: text, files, limits: this.limits() }, this.lifted ? Infinity : PATIENCE);
+      return await this.quick.ask({ ...request, limits: this.limits() }, this.lifted ? Infinity : READING);
     } finally {
       clearTimeout(telling);
       this.reading = false;
@@ -223,6 +225,7 @@ export class Computer {
       if (!this.fine(first)) return;
     }
     this.told.answered(asked, first, modes);
+    if (kind === "statics" && unestimated(first)) return this.offer("The error takes longer to estimate.", first);
     if (first.status === "given-up") {
       this.offer("This is as far as two seconds of work lead.", first);
       return;

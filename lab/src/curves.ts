@@ -1,6 +1,7 @@
 // Curves over time or along the beam, with a cursor.
 import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
+import { recoloured, styled } from "./colours";
 import type { Room } from "./room";
 import { steady, text, ticks } from "./text";
 
@@ -16,16 +17,6 @@ export interface Curve {
 
 /** Height of a plot [px]. */
 const HEIGHT = 120;
-
-/** Colours of the style sheet by their names, until others are preferred. */
-const colours = new Map<string, string>();
-matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => colours.clear());
-
-export function styled(name: string): string {
-  const known = colours.get(name) ?? getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-  colours.set(name, known);
-  return known;
-}
 
 /** A tag with attributes and content. */
 export function tag<K extends keyof HTMLElementTagNameMap>(
@@ -81,7 +72,7 @@ export function sized(node: HTMLElement, plot: uPlot, height: number, signal: Ab
   });
   observer.observe(node);
   signal.addEventListener("abort", () => observer.disconnect());
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => plot.redraw(false), { signal });
+  recoloured(() => plot.redraw(false), signal);
 }
 
 /** Shades what lies behind the time until which a run is trusted. */

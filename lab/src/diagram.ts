@@ -1,6 +1,7 @@
 // The Campbell diagram: frequencies over the speed of rotation; a click chooses the speed.
 import uPlot from "uplot";
-import { axis, plain, sized, styled, tag } from "./curves";
+import { styled } from "./colours";
+import { axis, plain, sized, tag } from "./curves";
 import { array, type Stored } from "./data";
 import type { Reply } from "./engine";
 import type { Room } from "./room";

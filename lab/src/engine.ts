@@ -83,6 +83,8 @@ export interface Summary {
   message?: string | null;
   columns?: Record<string, Column>;
   trust?: { estimated?: boolean; reason?: string | null; until?: number | null; column?: string | null };
+  /** Of a path of equilibria. */
+  errors?: { estimated: boolean; reason: string | null };
   warnings?: string[];
   duration?: number;
   end_time?: number;
@@ -102,7 +104,7 @@ interface Column {
 /** Results of a run or of modes, as `flexion view` has them. */
 export const moving = (reply: Reply) => reply.results as Results;
 
-/** Whether a run is whole, and the work was limited before its errors were known. */
+/** Whether a run or a path is whole, and the work was limited before its errors were known. */
 export const unestimated = ({ status, message }: Reply) => status !== "given-up" && (message?.startsWith("given up at") ?? false);
 
 /** A request was stopped, its worker fell, or it took too long. */
@@ -172,7 +174,7 @@ export class Lane {
     }
     const worker = this.worker;
     this.since = performance.now();
-    const limit = patience < Infinity ? setTimeout(() => this.stop("it took too long", "late"), 1000 * patience) : undefined;
+    const limit = patience < Infinity ? setTimeout(() => this.stop(`This takes more than ${patience} s.`, "late"), 1000 * patience) : undefined;
     try {
       return await new Promise<Reply>((resolve, reject) => {
         this.stopping = reject;

@@ -1,6 +1,7 @@
 // Curves of a run that is not done yet.
 import uPlot from "uplot";
-import { axis, plain, styled, tag } from "./curves";
+import { styled } from "./colours";
+import { axis, plain, tag } from "./curves";
 import { array, type Stored } from "./data";
 
 /** Columns that are drawn. */

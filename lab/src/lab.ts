@@ -7,12 +7,13 @@ import { Answer, type Pin } from "./answer";
 import { tag } from "./curves";
 import { Computer, type Asked } from "./computer";
 import { campbell } from "./diagram";
-import { base64, bytes, type Entry, type Kind, type Problem, type Reply } from "./engine";
+import { base64, bytes, Stopped, type Entry, type Kind, type Problem, type Reply } from "./engine";
 import { example, Form, quantity, written } from "./form";
 import * as gallery from "./gallery";
 import { Growing } from "./growing";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
 import "./menus";
+import { list as problemsOf } from "./problems";
 import { Room } from "./room";
 import * as save from "./save";
 import { Source } from "./source";
@@ -84,7 +85,7 @@ let waiting = 0;
 /** The text or what is asked of it is another; `sliding` says that more will follow. */
 function renewed(sliding = false) {
   number += 1;
-  halted = false;
+  halted = "";
   element("result").classList.toggle("sliding", sliding);
   age();
 }
@@ -178,21 +179,13 @@ function name(title: string) {
 }
 
 function list(problems: Problem[]) {
-  const nodes = problems.slice(0, 20).map((problem) => {
-    const go = tag("button", { type: "button" }, problem.line ? `Line ${problem.line}` : (problem.key ?? "Case"));
-    go.addEventListener("click", () => {
-      // A value that was not taken over stands in its box, and not in the text.
-      const box = problem.line ? null : document.getElementById(`key-${problem.key}`);
-      tab(box ? "form" : "text");
-      if (box) return box.focus();
-      source.go(problem.line ?? 1, problem.column ?? 1);
-    });
-    const help = [problem.label, ...(problem.help ?? [])].filter(Boolean).join("; ");
-    const key = problem.key && problem.line ? `${problem.key}: ` : "";
-    return tag("li", {}, go, ` ${key}${problem.message}`, ...(help ? [tag("small", {}, help)] : []));
+  problemsOf(element("problems"), problems, (problem) => {
+    // A value that was not taken over stands in its box, and not in the text.
+    const box = problem.line ? null : document.getElementById(`key-${problem.key}`);
+    tab(box ? "form" : "text");
+    if (box) return box.focus();
+    source.go(problem.line ?? 1, problem.column ?? 1);
   });
-  if (problems.length > nodes.length) nodes.push(tag("li", {}, `and ${problems.length - nodes.length} more`));
-  element("problems").replaceChildren(...nodes);
   if (problems.length > 0) said(problems.length === 1 ? "The case has a mistake." : `The case has ${problems.length} mistakes.`);
 }
 
@@ -273,8 +266,8 @@ let remembering = 0;
 let [addresses, pushing] = [0, false];
 /** Links that are being opened. */
 let following = 0;
-/** Whether the opening of the link in the address was stopped. */
-let halted = false;
+/** What ended the opening of the link in the address, if something did: the user, or that it takes long. */
+let halted: "" | "stopped" | "late" = "";
 /** Whether the address leads elsewhere than to what is shown. */
 const leads = () => following > 0 || location.hash.slice(1) !== written_;
 
@@ -317,8 +310,8 @@ async function link(): Promise<string> {
 /** Files that the case names. */
 const needed = () => Object.keys(state.files).filter((name) => state.text.includes(name));
 
-/** Shows what the address says. */
-async function follow() {
+/** Shows what the address says; `lifted` says that a click allows it to take long. */
+async function follow(lifted = false) {
   const fragment = location.hash.slice(1);
   if (fragment === written_ && state.text) return;
   written_ = fragment;
@@ -331,9 +324,13 @@ async function follow() {
   const wanted = () => written_ === fragment && !halted;
   try {
     const asked = await read(fragment);
-    if (wanted()) await open(asked);
+    if (wanted()) await open(asked, lifted);
   } catch (error) {
-    if (wanted()) refuse((error as Error).message);
+    if (!wanted()) return;
+    if (error instanceof Stopped && error.why === "late") {
+      halted = "late";
+      said(error.message, undefined, "compute");
+    } else refuse((error as Error).message);
   } finally {
     following -= 1;
   }
@@ -367,10 +364,10 @@ function again() {
 /** Counts the cases that were to be opened. */
 let openings = 0;
 
-async function open(asked: Link) {
+async function open(asked: Link, lifted = false) {
   const own = ++openings;
   computer.stop();
-  computer.lifted = false;
+  computer.lifted = lifted;
   const kind = asked.kind ?? "run";
   if (asked.text !== undefined) {
     replace({ text: asked.text, files: {}, kind, speed: asked.speed, most: largest(asked.most), version: asked.version, fresh: true });
@@ -464,15 +461,16 @@ element<HTMLSelectElement>("run").addEventListener("change", (event) => {
   void open({ named: found.item.id, run: found.run.name, set: [], ...keep }).then(() => remember(true), (error) => failed(error.message));
 });
 element("compute").addEventListener("click", () => {
-  if (halted) {
+  const of = halted;
+  if (of) {
     written_ = "#";
-    return void follow();
+    return void follow(of === "late");
   }
   computer.lifted = true;
   change();
 });
 element("stop").addEventListener("click", () => {
-  halted = following > 0;
+  halted = following > 0 ? "stopped" : "";
   if (halted) openings += 1;
   computer.stop(halted ? "Stopped. Press Compute to open the link." : "Stopped. Change the case or press Compute to go on.");
 });
@@ -574,8 +572,8 @@ async function take(given: File[]) {
 
 // While the engine comes.
 (window.requestIdleCallback ?? setTimeout)(() => warm(room.canvas));
-addEventListener("hashchange", follow);
-addEventListener("popstate", follow);
+addEventListener("hashchange", () => follow());
+addEventListener("popstate", () => follow());
 void computer.ready
   .then((of) => {
     version = of;

@@ -25,6 +25,9 @@ function speed(span: number): number {
   return span < least ? nice(span / least) : span > most ? 2 * nice(span / most) : 1;
 }
 
+/** Where a point is drawn. */
+type Drawing = (point: Vector3) => Vector3;
+
 /** What is drawn of a run. */
 type Run = ReturnType<typeof read>;
 
@@ -66,7 +69,7 @@ function read(results: Results, other?: Results) {
     const from = Math.min(Math.floor(k / pieces), times.length - 1);
     return { from, to: Math.min(from + 1, times.length - 1), share: (k % pieces) / pieces };
   });
-  const strongest = (all: Acting[]) => all.reduce((most, { values }) => Math.max(most, longest(values)), 0);
+  const strongest = (all: { values: Float64Array }[]) => all.reduce((most, { values }) => Math.max(most, longest(values)), 0);
   return {
     results,
     space,
@@ -83,6 +86,8 @@ function read(results: Results, other?: Results) {
     instants,
     /** The largest [N] or [N·m] of each kind. */
     strongest: space.acting.map(strongest),
+    /** The largest force per length [N/m]. */
+    densest: strongest(space.along),
   };
 }
 
@@ -110,7 +115,7 @@ function turns(part: Part, times: Float64Array, recorded: Float64Array, angle?: 
 
 /** Whether runs are of the same parts at the same times: what is drawn of one can show the other. */
 function alike(one: Run, other: Run): boolean {
-  const form = ({ space: { times, parts, outlines, acting, planar }, straight }: Run) => [
+  const form = ({ space: { times, parts, outlines, acting, along, planar }, straight }: Run) => [
     times.length,
     times[0],
     times[times.length - 1],
@@ -119,6 +124,7 @@ function alike(one: Run, other: Run): boolean {
     ...parts.flatMap(({ name, beam, box }) => [name, ...(beam ? [beam.hub, ...beam.stations, ...beam.section] : box!)]),
     ...outlines.flatMap(({ name, points }) => [name, points.length]),
     ...acting.flatMap((of) => [of.length, ...of.map(({ name }) => name)]),
+    ...along.flatMap(({ name, points }) => [name, points]),
   ];
   const [a, b] = [form(one), form(other)];
   return a.length === b.length && a.every((entry, i) => entry === b[i]);
@@ -144,25 +150,41 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   let path = kept?.path ?? true;
   let transmitted = kept?.transmitted ?? true;
 
+  /** A place and the vector behind it among six numbers of every time, as it is drawn with the largest as long as `most`. */
+  function arrow(values: Float64Array, { from, to, share }: Instant, [index, count]: [number, number], most: number, drawn: Drawing): [Vector3, Vector3] {
+    const [a, b] = [6 * (count * from + index), 6 * (count * to + index)];
+    const entry = (i: number) => values[a + i] + share * (values[b + i] - values[a + i]);
+    return [drawn(new Vector3(entry(0), entry(1), entry(2))), new Vector3(entry(3), entry(4), entry(5)).multiplyScalar(most)];
+  }
+
+  /** Whether a vector is long enough to be seen. */
+  const isSeen = ([, along]: [Vector3, Vector3]) => along.length() > 1e-2 * stage.arrow;
+
   /** Places of forces or couples, and vectors as long as they are large. */
-  function arrows(all: Acting[], strongest: number, at: Instant): [Vector3, Vector3][] {
-    return all.flatMap(({ values }): [Vector3, Vector3][] => {
-      const entry = (i: number) => values[6 * at.from + i] + at.share * (values[6 * at.to + i] - values[6 * at.from + i]);
-      const along = new Vector3(entry(3), entry(4), entry(5)).multiplyScalar(stage.arrow / (strongest || 1));
-      return along.length() > 1e-2 * stage.arrow ? [[drawn(new Vector3(entry(0), entry(1), entry(2)), at), along]] : [];
+  function arrows(all: Acting[], strongest: number, at: Instant, drawn: Drawing): [Vector3, Vector3][] {
+    return all.map(({ values }) => arrow(values, at, [0, 1], stage.arrow / (strongest || 1), drawn)).filter(isSeen);
+  }
+
+  /** The same of forces per length, which are half as long. */
+  function rows(at: Instant, drawn: Drawing): [Vector3, Vector3][][] {
+    return run.space.along.map(({ points, values }) => {
+      const row = Array.from({ length: points }, (_, k) => arrow(values, at, [k, points], stage.arrow / (2 * run.densest), drawn));
+      return row.some(isSeen) ? row : [];
     });
   }
 
-  /** Where a point is drawn: moved as the nearest section is, where deflections are drawn larger. */
-  function drawn(point: Vector3, at: Instant): Vector3 {
-    if (factor === 1) return point;
+  /** Where points are drawn: moved as the nearest section is, where deflections are drawn larger. */
+  function drawing(at: Instant): Drawing {
+    if (factor === 1) return (point) => point;
     const moved = run.beams.flatMap((part) => {
       const larger = sections(part, at, factor, 1);
       return sections(part, at, 1, 1).map(({ position }, k) => ({ position, by: larger[k].position.sub(position) }));
     });
     const [first, ...others] = moved;
-    const nearer = (a: typeof first, b: typeof first) => (b.position.distanceTo(point) < a.position.distanceTo(point) ? b : a);
-    return first ? point.add(others.reduce(nearer, first).by) : point;
+    return (point) => {
+      const nearer = (a: typeof first, b: typeof first) => (b.position.distanceTo(point) < a.position.distanceTo(point) ? b : a);
+      return first ? point.add(others.reduce(nearer, first).by) : point;
+    };
   }
 
   /** The beams of the other run. */
@@ -230,13 +252,15 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     const { space, pieces } = run;
     const at = instant(space.times, time);
     const outlines = space.outlines.map(({ points }) => outline(points, at));
+    const drawn = drawing(at);
     stage.place({
       poses: space.parts.map((part) => pose(part, at)),
       sections: shapes(at),
       outlines,
       frame: frame(at),
       others: others(time),
-      acting: space.acting.map((of, kind) => (transmitted || kind < 2 ? arrows(of, run.strongest[kind], at) : [])),
+      acting: space.acting.map((of, kind) => (transmitted || kind < 2 ? arrows(of, run.strongest[kind], at, drawn) : [])),
+      along: rows(at, drawn),
     });
     stage.follow(Math.floor(pieces * (at.from + at.share)) + 1);
     stage.render();
@@ -254,15 +278,16 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     player?.seek(time);
   });
   const note = () => {
-    const { results, revolutions, strongest: [force, moment, inJoints, twisting] } = run;
+    const { results, revolutions, densest, strongest: [force, moment, inJoints, twisting] } = run;
     const larger = factor === 1 ? "" : `Deflections are drawn ${text(factor)} times as large.`;
     const fast = `The hub turns by up to ${text(revolutions, 2)} revolutions between frames: see it in its own frame.`;
     const blind = stage.shown ? "" : "This browser has no WebGL: there is no picture, but curves.";
     const forced = force > 0 ? `Arrows are forces, the longest ${text(force, 3)} N.` : "";
+    const spread = densest > 0 ? `Rows of arrows are forces per length, the longest ${text(densest, 3)} N/m.` : "";
     const turned = moment > 0 ? `Arcs are couples, the widest ${text(moment, 3)} N·m.` : "";
     const most = [inJoints > 0 ? `${text(inJoints, 3)} N` : "", twisting > 0 ? `${text(twisting, 3)} N·m` : ""].filter((one) => one);
     const joined = transmitted && most.length > 0 ? `Grey is what joints and springs transmit, ${most.join(" and ")} at most.` : "";
-    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, turned, joined, larger];
+    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, spread, turned, joined, larger];
     room.note.textContent = parts.join(" ").trim();
   };
   const again = (fitted = false) => {

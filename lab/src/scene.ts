@@ -33,6 +33,15 @@ export interface Acting {
   values: Float64Array;
 }
 
+/** A force per length along a beam. */
+export interface Along {
+  name: string;
+  /** Number of places. */
+  points: number;
+  /** Six numbers a time and place: the place and the force per length. */
+  values: Float64Array;
+}
+
 /** Forces and couples of loads and contacts, and those that joints and springs transmit. */
 export const KINDS = ["force", "moment", "transmitted-force", "transmitted-moment"];
 
@@ -43,6 +52,7 @@ export interface Scene {
   outlines: { name: string; points: Float64Array }[];
   /** By KINDS: six numbers a time, the place and the force or the couple. */
   acting: Acting[][];
+  along: Along[];
   /** Whether all stays in the plane of the first two axes. */
   planar: boolean;
 }
@@ -90,7 +100,8 @@ export function scene(arrays: Arrays): Scene {
     part.poses.every((x, i) => ![2, 4, 5].includes(i % 7) || Math.abs(x) < 1e-12) &&
     (part.beam?.displacements.every((x, i) => i % 3 !== 2 || x === 0) ?? false);
   const acting = KINDS.map((what) => names(`.${what}`).map((name): Acting => ({ name, values: get(`${name}.${what}`)! })));
-  return { times: get("time")!, parts, outlines, acting, planar: parts.every(flat) };
+  const along = names(".line-force").map((name): Along => ({ name, points: arrays[`${name}.line-force`].shape[1], values: get(`${name}.line-force`)! }));
+  return { times: get("time")!, parts, outlines, acting, along, planar: parts.every(flat) };
 }
 
 /** Where `time` lies among ascending times. */

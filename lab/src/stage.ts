@@ -4,6 +4,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Line2 } from "three/addons/lines/Line2.js";
 import { LineGeometry } from "three/addons/lines/LineGeometry.js";
 import { LineMaterial } from "three/addons/lines/LineMaterial.js";
+import { recoloured, styled } from "./colours";
 import type { Room } from "./room";
 import { KINDS, type Part, type Scene, type Section } from "./scene";
 import { nice, text } from "./text";
@@ -20,6 +21,8 @@ export interface Picture {
   others?: THREE.Vector3[][];
   /** Forces and couples by their kinds: where, and an arrow or an axis. */
   acting?: [THREE.Vector3, THREE.Vector3][][];
+  /** Forces per length: where along each, and an arrow. */
+  along?: [THREE.Vector3, THREE.Vector3][][];
   /** The frame of reference: what is drawn is seen from it. */
   frame: Section;
 }
@@ -44,8 +47,7 @@ const directions: Record<View, [THREE.Vector3, THREE.Vector3]> = {
 };
 
 /** Colours by the names of the style sheet. */
-const colour = (name: string) =>
-  new THREE.Color(getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim());
+const colour = (name: string) => new THREE.Color(styled(name));
 
 /** One renderer a canvas: browsers allow few of them. */
 const renderers = new WeakMap<HTMLCanvasElement, THREE.WebGLRenderer>();
@@ -244,6 +246,7 @@ export class Stage {
   private readonly paths: Line[] = [];
   private readonly others: Line[] = [];
   private readonly acting: Line[][] = KINDS.map(() => []);
+  private readonly along: Line[] = [];
   private readonly axes: Line[];
 
   /** Width of the picture [px], and what the scale shows: asking the page for them would lay it out anew. */
@@ -293,7 +296,12 @@ export class Stage {
     this.controls.addEventListener("change", () => this.moving || this.render());
     const observer = new ResizeObserver(() => this.resize());
     observer.observe(canvas.parentElement!);
-    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paint(), { signal });
+    recoloured(() => {
+      this.paint();
+      this.render();
+      // Chromium prints the picture as it was when it was last read.
+      canvas.toDataURL();
+    }, signal);
     signal.addEventListener("abort", () => {
       observer.disconnect();
       this.controls.dispose();
@@ -362,6 +370,7 @@ export class Stage {
       const drawn = (picture.acting?.[kind] ?? []).map(([at, along]) => (kind % 2 === 0 ? this.pointed(at, along) : arc(at, along)));
       this.draw(lines, drawn, () => (kind < 2 ? new Line("force", 2) : new Line("dim", 1.5)));
     });
+    this.draw(this.along, (picture.along ?? []).map((arrows) => this.row(arrows)), () => new Line("force", 1.25));
   }
 
   /** Whether there is a picture at all. */
@@ -423,6 +432,14 @@ export class Stage {
     return [at, end, neck.clone().add(side), end, neck.clone().sub(side)];
   }
 
+  /** Arrows whose ends a line joins. */
+  private row(arrows: [THREE.Vector3, THREE.Vector3][]): THREE.Vector3[] {
+    return arrows.flatMap(([at, along]) => {
+      const [, end, left, , right] = this.pointed(at, along);
+      return [end, at, end, left, end, right, end];
+    });
+  }
+
   /** Paths of points, as seen from the frame of reference. */
   trace(paths: THREE.Vector3[][]) {
     this.draw(this.paths, paths, () => new Line("path", 1.5), this.space);
@@ -459,7 +476,7 @@ export class Stage {
   }
 
   private paint() {
-    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.acting.flat()];
+    const lines = [...this.outlines, ...this.paths, ...this.axes, ...this.others, ...this.acting.flat(), ...this.along];
     for (const drawn of [...this.bodies, ...this.solids, ...lines]) drawn?.paint();
   }
 }

@@ -52,6 +52,16 @@ async function edit(page, from, to) {
 
 const journeys = {
   async "a link is opened"(page, { requested }) {
+    // Looked at after every change of the page: a list of its controls that is taken first and looked at later holds some that have been replaced.
+    await page.addInitScript(() => {
+      window.nameless = new Set();
+      const look = () => {
+        for (const node of document.querySelectorAll("button, select, input, summary, a")) {
+          if (!node.closest("[hidden]") && !(node.ariaLabel || node.labels?.length || node.textContent.trim())) window.nameless.add(node.outerHTML);
+        }
+      };
+      new MutationObserver(look).observe(document, { childList: true, subtree: true, attributes: true, characterData: true });
+    });
     await page.goto(`${lab}#case=p1_spin_up_4`);
     await answered(page);
     assert.match(await page.textContent("#title"), /spin-up to 4 rad\/s/);
@@ -59,9 +69,7 @@ const journeys = {
     assert.ok(Math.abs(number(least) + 0.4003) < 1e-3 && least.includes("±"), `the least deflection is ${least}`);
     const paths = requested.map((url) => url.replace(address, ""));
     assert.ok(paths.every((path) => ["/index.html", "/engine.wasm"].includes(path)), `requested: ${paths}`);
-    const nameless = await page.$$eval("button, select, input, summary, a", (all) =>
-      all.filter((e) => !e.closest("[hidden]") && !(e.ariaLabel || e.labels?.length || e.textContent.trim())).map((e) => e.outerHTML));
-    assert.deepEqual(nameless, [], "everything that acts has a name");
+    assert.deepEqual(await page.evaluate(() => [...window.nameless]), [], "everything that acts has a name, whenever it is there");
     assert.equal(await page.locator(".cm-editor").count(), 0, "the editor is made when it is looked at");
     const pixels = () => page.locator("#canvas").screenshot();
     const first = await pixels();
@@ -226,6 +234,26 @@ const journeys = {
     // Its vectors have several components: the longest couple is one of 209.5 N·m.
     assert.match(await page.textContent("#note"), /Grey is what joints and springs transmit, 30\.1 N and 210 N·m at most/);
   },
+  async "a load along a beam has a row of arrows"(page) {
+    // Dark red is nothing else in the picture.
+    const red = () => page.$eval("#canvas", (canvas) => {
+      const brush = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+      brush.drawImage(canvas, 0, 0);
+      const { data } = brush.getImageData(0, 0, canvas.width, canvas.height);
+      let count = 0;
+      for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 100 && data[i] > 130 && data[i + 1] < 90 && data[i + 2] < 90) count += 1;
+      return count;
+    });
+    await page.goto(`${lab}#case=distributed_load`);
+    await answered(page);
+    // `force-per-length` of the case.
+    assert.match(await page.textContent("#note"), /Rows of arrows are forces per length, the longest 800 N\/m\./);
+    assert.ok((await red()) > 500, `${await red()} pixels of arrows`);
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    assert.doesNotMatch(await page.textContent("#note"), /per length/);
+    assert.equal(await red(), 0);
+  },
   async "it plays, stops and steps"(page) {
     await page.goto(`${lab}#case=space_joints`);
     await answered(page);
@@ -309,6 +337,46 @@ const journeys = {
     assert.ok(await page.locator(".cm-editor").isHidden(), "the editor is not printed");
     const bytes = await page.pdf();
     assert.ok(bytes.length > 20_000, "there is a picture in the print");
+  },
+  async "what is dark on the screen is light on paper"(page) {
+    await page.goto(`${lab}#case=falling_pendulum`);
+    await answered(page);
+    await page.setViewportSize({ width: 794, height: 1123 });
+    if ((await page.getAttribute("#play", "aria-label")) === "Pause") await page.click("#play");
+    // A number for each picture.
+    const drawn = () => page.$$eval("#canvas, .panel canvas", (all) => all.map((canvas) => [...canvas.toDataURL()].reduce((sum, c) => (31 * sum + c.charCodeAt(0)) | 0, 0)));
+    const event = (name) => page.evaluate((name) => new Promise((resolve) => (dispatchEvent(new Event(name)), setTimeout(resolve))), name);
+    const light = await drawn();
+    await page.emulateMedia({ colorScheme: "dark" });
+    await page.waitForTimeout(100);
+    const dark = await drawn();
+    assert.ok(dark.every((picture, i) => picture !== light[i]), "dark pictures are others");
+    await event("beforeprint");
+    assert.deepEqual(await drawn(), light);
+    await page.emulateMedia({ colorScheme: "dark", media: "print" });
+    assert.deepEqual(await page.evaluate(faint), [], "the ink is dark");
+    assert.equal(await page.evaluate(() => getComputedStyle(document.documentElement).backgroundColor), "rgb(255, 255, 255)");
+    await page.emulateMedia({ colorScheme: "dark", media: "screen" });
+    await event("afterprint");
+    await page.waitForTimeout(100);
+    assert.deepEqual(await drawn(), dark);
+  },
+  async "nothing moves by itself where less motion is preferred"(page) {
+    await page.emulateMedia({ reducedMotion: "reduce" });
+    const time = () => page.$eval("#scrubber", (scrubber) => Number(scrubber.value));
+    for (const kind of ["", "&do=modes"]) {
+      await page.goto("about:blank");
+      await page.goto(`${lab}#case=p1_spin_up_4${kind}`);
+      await answered(page);
+      const before = await time();
+      await page.waitForTimeout(300);
+      assert.equal(await time(), before, `${kind} it stands still`);
+      const fading = () => (document.querySelector("#result").classList.toggle("stale"), document.getAnimations().length);
+      assert.deepEqual([await page.evaluate(fading), await page.evaluate(fading)], [0, 0], "an old answer fades at once");
+      await page.click("#play");
+      await page.waitForTimeout(300);
+      assert.notEqual(await time(), before, `${kind} it plays when it is asked to`);
+    }
   },
   async "back leads to the case before"(page) {
     await page.goto(`${lab}#case=p1_spin_up_4`);

@@ -40,6 +40,7 @@ async function look(path, { name, viewport, colorScheme }) {
 
   // What touches or is loaded has arrows.
   if (/contact/.test(basename(path))) assert.match(await page.textContent("#note"), /Arrows are forces, the longest [\d.e]+ N\./);
+  if (/loaded/.test(basename(path))) assert.match(await page.textContent("#note"), /Rows of arrows are forces per length, the longest 800 N\/m\./);
 
   // Space pauses, the arrows step.
   await page.locator("h1").click();

@@ -181,6 +181,43 @@ export const standing = ({ lab, slide, edit, fragment }) => ({
     await page.waitForTimeout(500);
     assert.match(await page.textContent("#state"), /^Stopped/);
   },
+  async "nothing long is computed before a click"(page) {
+    const text = (elements) => `[beam]\nlength = "1 m"\n[section]\nkind = "uniform"\nmodulus = "70 GPa"\ndensity = 2700\narea = "1 cm^2"\nsecond-moment = "1e-10 m^4"\n[basis]\nkind = "finite-elements"\nelements = ${elements}\n[run]\nduration = "1 s"\n`;
+    // Modes by their work.
+    await page.goto(`${lab}${link(text(12_000))}&do=modes&speed=1 rad/s`);
+    await page.waitForSelector("#compute:not([hidden])");
+    assert.match(await page.textContent("#state"), /takes more than two seconds/);
+    assert.ok(await stale(page), "no modes are shown");
+    // Reading by the clock, for nothing is counted before it: the machine is as slow as it has to be.
+    await page.evaluate(() => {
+      const later = window.setTimeout;
+      window.setTimeout = (act, time, ...rest) => later(act, time === 3000 ? 20 : time, ...rest);
+    });
+    const offered = () => page.waitForFunction(() => document.querySelector("#state").textContent === "This takes more than 3 s." && !document.querySelector("#compute").hidden);
+    await page.evaluate((hash) => void (location.hash = hash), link(text(30_000)));
+    await offered();
+    await page.click("#compute");
+    await page.waitForFunction(() => document.querySelector("#form input[type=range]") !== null, undefined, { timeout: 60_000 });
+    if (await page.locator("#stop").isVisible()) await page.click("#stop");
+    // A link whose changes take long leads to them by a click.
+    await page.evaluate(() => void (location.hash = "#case=p1_spin_up_4&set=basis.elements=20000"));
+    await offered();
+    assert.match(await fragment(page), /^#case=p1_spin_up_4&set=basis\.elements=20000/);
+    await page.click("#compute");
+    await page.waitForFunction(() => /elements = 20000/.test(document.querySelector("#text .plain").textContent), undefined, { timeout: 60_000 });
+    await page.waitForFunction(() => document.querySelector("#stop").hidden || /computing|reading/.test(document.querySelector("#state").textContent));
+    if (await page.locator("#stop").isVisible()) await page.click("#stop");
+  },
+  async "a path without errors says why"(page) {
+    await page.goto(`${lab}#case=distributed_load&do=statics`);
+    await answered(page);
+    assert.match(await page.textContent("#curves table"), /±/);
+    assert.doesNotMatch(await page.textContent("#notes"), /Errors are not known/);
+    await page.goto(`${lab}#case=distributed_load&do=statics&set=basis.elements=400`);
+    await answered(page);
+    assert.doesNotMatch(await page.textContent("#curves table"), /±/);
+    assert.match(await page.textContent("#notes"), /Errors are not known: the path took/);
+  },
   async "what was chosen in a picture stays while another is looked at"(page) {
     await page.goto(`${lab}#case=space_elbow`);
     await answered(page);

@@ -1,20 +1,27 @@
-//! Forces and couples of loads, contacts, joints and springs, as they are drawn.
+//! Forces and couples of loads, contacts, joints and springs, and forces per length, as they are drawn.
 
 use std::io;
 
 use super::arrays::{Arrays, Numbers};
-use flexion::system::{PointForce, State, System};
+use flexion::system::{LineForce, PointForce, State, System};
 
 /// Most forces that are kept, and most couples.
 const MOST: usize = 50;
+/// Most points of forces per length that are kept.
+const MOST_POINTS: usize = 200;
 
 /// Forces and couples of loads and contacts, and those that joints and springs transmit, which are far larger.
 const KINDS: [(bool, [&str; 2]); 2] =
     [(false, ["force", "moment"]), (true, ["transmitted-force", "transmitted-moment"])];
 
-/// All by their names, whether they are transmitted, and with six numbers a time: the place, and the force or the couple.
+/// All that are drawn.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Forces(Vec<(String, bool, [Vec<f32>; 2])>);
+pub(super) struct Forces {
+    /// By their names, whether they are transmitted, and with six numbers a time: the place, and the force or the couple.
+    at_points: Vec<(String, bool, [Vec<f32>; 2])>,
+    /// By their names and numbers of points, with six numbers a time and point.
+    along: Vec<(String, usize, Vec<f32>)>,
+}
 
 impl Forces {
     /// Takes those of a state.
@@ -22,12 +29,18 @@ impl Forces {
         for (i, PointForce { name, place, force, moment, transmitted }) in
             system.point_forces(state).into_iter().enumerate()
         {
-            if self.0.len() == i {
-                self.0.push((name, transmitted, Default::default()));
+            if self.at_points.len() == i {
+                self.at_points.push((name, transmitted, Default::default()));
             }
-            for (values, vector) in self.0[i].2.iter_mut().zip([force, moment]) {
+            for (values, vector) in self.at_points[i].2.iter_mut().zip([force, moment]) {
                 values.extend(place.0.iter().chain(&vector.0).map(|x| *x as f32));
             }
+        }
+        for (i, LineForce { name, points }) in system.line_forces(state).into_iter().enumerate() {
+            if self.along.len() == i {
+                self.along.push((name, points.len(), Vec::new()));
+            }
+            self.along[i].2.extend(points.iter().flatten().flat_map(|vector| vector.0).map(|x| x as f32));
         }
     }
 
@@ -38,33 +51,43 @@ impl Forces {
     pub(super) fn put(&self, times: u64, to: &mut dyn Arrays) -> io::Result<()> {
         for (transmitted, kinds) in KINDS {
             for (i, what) in kinds.into_iter().enumerate() {
-                for (name, values) in self.acting(transmitted, i) {
+                let of = self.at_points.iter().filter(|of| of.1 == transmitted);
+                for (name, _, values) in largest(of.map(|(name, _, values)| (name, 1, &*values[i])), MOST) {
                     to.put(&format!("{name}.{what}"), &[times, 6], Numbers::Single(values))?;
                 }
             }
         }
+        let along = self.along.iter().map(|(name, points, values)| (name, *points, &**values));
+        for (name, points, values) in largest(along, MOST_POINTS) {
+            to.put(&format!("{name}.line-force"), &[times, points as u64, 6], Numbers::Single(values))?;
+        }
         Ok(())
     }
+}
 
-    /// Those that act at some time, the largest of them, each with a name of its own.
-    fn acting(&self, transmitted: bool, i: usize) -> Vec<(String, &[f32])> {
-        let size = |values: &[f32]| {
-            let vectors = values.as_chunks::<6>().0.iter().flat_map(|at| &at[3..]);
-            vectors.fold(0.0_f32, |most, x| most.max(x.abs()))
-        };
-        let of = self.0.iter().filter(|of| of.1 == transmitted);
-        let all = of.map(|(name, _, values)| (name, &*values[i]));
-        let mut acting: Vec<_> = all.filter(|(_, values)| size(values) > 0.0).collect();
-        acting.sort_by(|(_, a), (_, b)| size(b).total_cmp(&size(a)));
-        acting.truncate(MOST);
-        let mut named: Vec<(String, &[f32])> = Vec::new();
-        for (name, values) in acting {
-            let mut own = name.clone();
-            while named.iter().any(|(taken, _)| *taken == own) {
-                own.push('\'');
-            }
-            named.push((own, values));
+/// Those that act at some time, the largest of them with so many points in all, each with a name of its own.
+fn largest<'f>(
+    all: impl Iterator<Item = (&'f String, usize, &'f [f32])>,
+    most: usize,
+) -> Vec<(String, usize, &'f [f32])> {
+    let size = |values: &[f32]| {
+        let vectors = values.as_chunks::<6>().0.iter().flat_map(|at| &at[3..]);
+        vectors.fold(0.0_f32, |most, x| most.max(x.abs()))
+    };
+    let mut acting: Vec<_> = all.filter(|(.., values)| size(values) > 0.0).collect();
+    acting.sort_by(|a, b| size(b.2).total_cmp(&size(a.2)));
+    let mut named: Vec<(String, usize, &[f32])> = Vec::new();
+    let mut total = 0;
+    for (name, points, values) in acting {
+        total += points;
+        if total > most {
+            break;
         }
-        named
+        let mut own = name.clone();
+        while named.iter().any(|(taken, ..)| *taken == own) {
+            own.push('\'');
+        }
+        named.push((own, points, values));
     }
+    named
 }

@@ -14,6 +14,7 @@
 //! | `NAME.outline` | (n, p, 3) | of an obstacle: points of its outline \[m\], inertial axes |
 //! | `NAME.force` | (n, 6) | of a load or a contact at a point that acts at some time: place \[m\] and force \[N\], inertial axes; of the largest 50 |
 //! | `NAME.moment` | (n, 6) | of a load with a couple, likewise: place \[m\] and couple [N·m] |
+//! | `NAME.line-force` | (n, p, 6) | of a force per length along a beam: places from one end of it to the other \[m\] and the force per length there [N/m] |
 //!
 //! and `time` (n) \[s\]. A section stands at p + R (x e₁ + u), with the pose p, R of the root. Displacements are kept apart from the pose
 //! so that small ones keep their digits: what changes with time is stored in single precision.
@@ -366,7 +367,7 @@ mod tests {
     use crate::archive;
     use flexion::contact::Plane;
     use flexion::multibody::rotation::{Quaternion, about};
-    use flexion::system::{Dynamics, Events, Observed, PointForce, Size, Steady, Weights};
+    use flexion::system::{Dynamics, Events, LineForce, Observed, PointForce, Size, Steady, Weights};
     use std::collections::BTreeMap;
     use std::io::Cursor;
     use std::sync::Arc;
@@ -402,6 +403,11 @@ mod tests {
             };
             let joint = force("joint", 100.0, 0.0);
             vec![force("push", 0.5, 0.0), force("push", 3.0, 0.0), force("twist", 0.0, -2.0), joint]
+        }
+        /// One of two points that grows with q.
+        fn line_forces(&mut self, s: &State) -> Vec<LineForce> {
+            let points = [1.0, 2.0].map(|x| [x * self.p, Vec3([0.0, 0.0, x * s.q[0]])]).to_vec();
+            vec![LineForce { name: "wind".into(), points }]
         }
         fn frames(&mut self, body: usize, s: &State, stations: &[f64], out: &mut [Frame]) {
             let root = about(self.d);
@@ -546,11 +552,16 @@ mod tests {
         let all = written(&scene);
         let names: Vec<&String> =
             all.keys().filter(|name| !name.starts_with("arm.") && *name != "time").collect();
-        assert_eq!(names, ["joint.transmitted-force", "push'.force", "push.force", "twist.moment"]);
+        assert_eq!(
+            names,
+            ["joint.transmitted-force", "push'.force", "push.force", "twist.moment", "wind.line-force"]
+        );
         let times = |a: f64, b: f64| vec![1.0, 2.0, 3.0, 0.0, a, 0.0, 1.0, 2.0, 3.0, 0.0, b, 0.0];
         assert_eq!(all["push.force"], (vec![2, 6], times(0.75, 1.5)));
         assert_eq!(all["push'.force"], (vec![2, 6], times(0.125, 0.25)));
         assert_eq!(all["twist.moment"].1[3..6], [-0.5, 0.0, 0.0]);
+        let (shape, last) = (&all["wind.line-force"].0, &all["wind.line-force"].1[18..]);
+        assert_eq!((&shape[..], last), (&[2, 2, 6][..], &[2.0, 4.0, 6.0, 0.0, 0.0, 1.0][..]));
     }
 
     #[test]

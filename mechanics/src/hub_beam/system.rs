@@ -15,8 +15,8 @@ use crate::drive::motion_breaks;
 use crate::linalg::{Mat3, Matrix, Storage, Structure, Vec3};
 use crate::profile::HubKinematics;
 use crate::system::{
-    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, NotSet, Observed,
-    Parameter, PointForce, Power, Role, Sink, Size, State, Steady, StiffnessForm, Weights, ordered,
+    Break, Channel, Corotation, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, LineForce, NotSet,
+    Observed, Parameter, PointForce, Power, Role, Sink, Size, State, Steady, StiffnessForm, Weights, ordered,
 };
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub struct HubBeam<C> {
     stations: Arc<[Station]>,
     /// Stations that were last requested by [`Observed::frames`].
     pub(super) shown: Vec<Station>,
-    /// Stations at which loads at points act, once they were asked for.
+    /// Stations at which loads are drawn, once they were asked for.
     pub(super) loaded: Vec<Station>,
     placements: Vec<Placement>,
     scratch: Scratch,
@@ -468,6 +468,10 @@ impl<C: Coupling> Observed for HubBeam<C> {
         let mut all = self.loads_at_points(s);
         all.push(self.driving_torque(s));
         all
+    }
+
+    fn line_forces(&mut self, s: &State) -> Vec<LineForce> {
+        self.loads_along(s)
     }
 
     fn observe(&mut self, s: &State, sink: &mut Sink<'_>) {

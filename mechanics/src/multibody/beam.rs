@@ -16,6 +16,7 @@ use super::marker::Pose;
 use super::shear::{self, NODE_COORDINATES, NODE_VELOCITIES, POINTS};
 use super::slender::{self, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, hermite, sample};
 use crate::linalg::{Mat3, Matrix, Vec3};
+use crate::profile::drawn;
 use crate::system::{Corotation, Frame, Weights};
 
 /// How far the cosine of two axes that count as one may be from one.
@@ -439,6 +440,7 @@ impl Beam {
         let count = self.elements();
         let on = load.elements.clone().map_or(0..count, |on| on.start.min(count)..on.end.min(count));
         let (first, f) = (on.start, load.distribution.as_deref());
+        let stations = drawn(f, [self.end(on.start), self.end(on.end)], self.end(count));
         let mut rows = Vec::new();
         for e in on {
             let (h, ends) = (self.length(e), [self.end(e), self.end(e + 1)]);
@@ -451,7 +453,7 @@ impl Beam {
                 }
             }
         }
-        LineDistribution { first, rows }
+        LineDistribution { first, rows, stations }
     }
 
     /// Adds the forces of a load per length [N/m], with components in fixed axes or in those of the sections.

@@ -54,6 +54,8 @@ pub(super) struct LineDistribution {
     pub first: usize,
     /// The rows wₖ \[m\] of each element from there on, section by section.
     pub rows: Vec<[f64; 4]>,
+    /// Arc lengths at which the load is drawn \[m\].
+    pub stations: Vec<f64>,
 }
 
 /// The weights of an element of the length `h` \[m\] between two arc lengths \[m\]; L and N by the place in it, 0 to 1.

@@ -3,12 +3,15 @@
 use super::constants::nearest_turn;
 use super::force::Interaction;
 use super::joint::Drive;
+use super::line_load::{LineDistribution, LineLoad};
 use super::reason;
 use super::row::Row;
 use super::system::Multibody;
-use crate::linalg::Vec3;
+use crate::linalg::{Mat3, Vec3};
 use crate::profile::HubKinematics;
-use crate::system::{Direction, Energy, Frame, Limit, Observed, PointForce, Power, Sink, Slender, State};
+use crate::system::{
+    Direction, Energy, Frame, Limit, LineForce, Observed, PointForce, Power, Sink, Slender, State,
+};
 
 /// Size of a row that was left out, over the length of the system, at which it no longer follows from the others; and over the
 /// largest of the rows that are kept.
@@ -183,6 +186,22 @@ impl Observed for Multibody {
             all.push(PointForce { name, place: at.position, force, moment, transmitted: from.is_some() });
         });
         all
+    }
+
+    fn line_forces(&mut self, s: &State) -> Vec<LineForce> {
+        let constants = &self.constants;
+        let along = |(load, on): (&LineLoad, &LineDistribution)| {
+            let ([q, _], beam) = (constants.beams[load.beam], &constants.model.beams[load.beam]);
+            let components = load.at(s.time(), self.part);
+            let at = |station: &f64| {
+                let frame = beam.frame(&s.q[q..], *station);
+                let axes = if load.follows() { frame.rotation } else { Mat3::IDENTITY };
+                let share = load.distribution.as_ref().map_or(1.0, |f| f.value(*station));
+                [frame.position, axes * (share * components)]
+            };
+            LineForce { name: load.name.clone(), points: on.stations.iter().map(at).collect() }
+        };
+        constants.model.line_loads.iter().zip(&constants.lines).map(along).collect()
     }
 
     /// The first beam.

@@ -72,6 +72,30 @@ pub fn changes(profile: &dyn Profile, until: f64) -> bool {
     (1..=LOOKS).map(|k| until * f64::from(k) / f64::from(LOOKS)).chain(marked).any(differs)
 }
 
+/// Equal parts of a beam at whose ends a distribution over all of it is drawn.
+const PARTS: f64 = 16.0;
+
+/// Stations from `from` to `to` of a beam of this length at which a distribution is drawn \[m\]: ends of equal parts, and the place of the largest |f|
+/// where it is larger than at these.
+pub fn drawn(profile: Option<&dyn Profile>, [from, to]: [f64; 2], length: f64) -> Vec<f64> {
+    let parts = (PARTS * (to - from) / length).ceil().clamp(2.0, PARTS) as u32;
+    let equal = |count: u32| (0..=count).map(move |k| from + (to - from) * f64::from(k) / f64::from(count));
+    let mut all: Vec<f64> = equal(parts).collect();
+    let Some(profile) = profile else { return all };
+    let size = |x: &f64| profile.value(*x).abs();
+    let within = |x: &&f64| (from..=to).contains(*x);
+    let marked = profile.breaks().iter().chain(profile.resolution()).filter(within).copied();
+    let looks = equal(parts * LOOKS).chain(marked);
+    let larger = |a: f64, b: f64| if size(&b) > size(&a) { b } else { a };
+    // Of those that are as large the first, which are the equal ones.
+    let most = all.iter().copied().chain(looks).fold(from, larger);
+    if !all.contains(&most) {
+        all.push(most);
+        all.sort_by(f64::total_cmp);
+    }
+    all
+}
+
 /// The lowest derivative of a profile that jumps at time `t` \[s\]: 0 for f itself, 1 for f′, 2 for f″, 3 if none of them
 /// does. Limits are compared to rounding: to 10⁻⁹ of what is found near t.
 pub fn jumping_derivative(profile: &dyn Profile, t: f64) -> usize {
@@ -274,8 +298,19 @@ fn positive(quantity: &'static str, value: f64) -> Result<(), ProfileError> {
 
 #[cfg(test)]
 mod checks {
-    use super::Profile;
+    use super::{Expression, Profile, drawn};
     use crate::quadrature::Gauss;
+
+    /// A bump narrower than the parts, which no end of them sees.
+    #[test]
+    fn the_largest_value_of_a_distribution_is_drawn() {
+        assert_eq!(drawn(None, [1.0, 2.0], 8.0), [1.0, 1.5, 2.0]);
+        let bump = Expression::new("exp(-((x - 0.71)/0.004)^2)", "x", 2.0).unwrap();
+        let stations = drawn(Some(&bump), [0.0, 2.0], 2.0);
+        assert_eq!(stations.len(), 18);
+        let most = stations.iter().map(|s| bump.value(*s)).fold(0.0, f64::max);
+        assert!(most > 0.9, "{most}");
+    }
 
     #[test]
     fn profiles_take_the_right_limit_at_their_breaks() {

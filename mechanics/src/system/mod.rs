@@ -37,7 +37,7 @@ pub use dynamics::{Dynamics, StiffnessForm, VisitRow, Weights};
 pub use events::{Break, Crossing, Events, Jump, ordered};
 pub use limit::Limit;
 pub use observed::{
-    ContactInfo, ContactSample, Direction, Energy, Frame, Observed, PointForce, Power, Slender,
+    ContactInfo, ContactSample, Direction, Energy, Frame, LineForce, Observed, PointForce, Power, Slender,
 };
 pub use rows::{RowWeights, Set, is_active, replace_inactive, slip};
 pub use sink::{Channel, Kind, Role, Sink};

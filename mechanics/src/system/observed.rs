@@ -159,6 +159,15 @@ pub struct PointForce {
     pub transmitted: bool,
 }
 
+/// A force per length along a beam, of a load.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LineForce {
+    /// Name of the load.
+    pub name: String,
+    /// From one end of the load to the other: a place of the axis in the inertial frame \[m\], and the force on the beam there, inertial axes [N/m].
+    pub points: Vec<[Vec3; 2]>,
+}
+
 /// What a model shows of itself. Nothing here changes what a run computes: work memory at most is written.
 pub trait Observed: Dynamics {
     /// Kinetic, strain, gravity and contact energy.
@@ -208,6 +217,12 @@ pub trait Observed: Dynamics {
     /// The forces and couples of loads, contacts, joints and springs, for pictures. Their number and order do not depend on the state. Loads that
     /// follow from the laws of a program are not among them, for such a law is asked once.
     fn point_forces(&mut self, _s: &State) -> Vec<PointForce> {
+        Vec::new()
+    }
+
+    /// The forces per length of loads along beams, for pictures: gravity and loads that follow from a law of the motion are not among them. Their number,
+    /// their order and the number of their points do not depend on the state.
+    fn line_forces(&mut self, _s: &State) -> Vec<LineForce> {
         Vec::new()
     }
 

@@ -7,7 +7,7 @@ use flexion::multibody::slender::{Beam, Properties, Station};
 use flexion::multibody::{
     self, Axes, Flexible, Joint, Kind, LineLoad, Load, Marker, Model, Multibody, Part, Spring, shear,
 };
-use flexion::system::{Dynamics, Frame, State};
+use flexion::system::{Dynamics, Frame, Observed, State};
 use flexion::verify::dynamics;
 
 /// An arc with a pretwist whose root is where the marker of `part` is.
@@ -57,8 +57,12 @@ fn somewhere(k: f64) -> Frame {
     Frame { position: Vec3([wave(1, k), wave(2, k), wave(3, k)]), rotation: odd_rotation(k) }
 }
 
-/// Ground – body – beam – beam – body, with a spring, loads of every kind and damping.
 fn system(kind: Kind, has_shear: [bool; 2]) -> Multibody {
+    with_loads(kind, has_shear, true)
+}
+
+/// Ground – body – beam – beam – body, with a spring, loads of every kind, those along beams if `along`, and damping.
+fn with_loads(kind: Kind, has_shear: [bool; 2], along: bool) -> Multibody {
     let mut model = Model::new().with_gravity([1.0, 2.0, -GRAVITY]);
     let body = model.body(odd_body("hub", 0.3));
     let end = model.body(odd_body("end", 1.7));
@@ -115,6 +119,9 @@ fn system(kind: Kind, has_shear: [bool; 2]) -> Multibody {
             axes,
             amplitude: Some(profile("1 + t")),
         });
+        if !along {
+            continue;
+        }
         model.line_load(LineLoad {
             elements: (axes == Axes::Dead).then_some(1..2),
             name: format!("{name} along"),
@@ -146,6 +153,41 @@ fn a_system_of_beams_and_bodies_conforms_in_motion() {
         let (mut s, _) = run(&mut system, &radau(1e-7), 0.1, None, |_, _| {});
         disturb(&mut s);
         assert_eq!(dynamics(&mut system, &s), [], "{kind:?} {has_shear:?}");
+    }
+}
+
+/// The power of what is drawn, by the trapezoidal rule over its places, whose velocities are differences.
+#[test]
+fn forces_per_length_that_are_drawn_do_the_work_of_their_loads() {
+    for shears in SHEARS {
+        let mut loaded = system(Kind::Revolute, shears);
+        let mut unloaded = with_loads(Kind::Revolute, shears, false);
+        let (mut s, _) = run(&mut loaded, &radau(1e-7), 0.1, None, |_, _| {});
+        disturb(&mut s);
+        let power = loaded.power(&s).loads - unloaded.power(&s).loads;
+        let places = |system: &mut Multibody, s: &State| -> Vec<Vec<Vec3>> {
+            let all = system.line_forces(s);
+            all.iter().map(|line| line.points.iter().map(|[place, _]| *place).collect()).collect()
+        };
+        let first = loaded.initial();
+        let initial = places(&mut loaded, &first);
+        let moved = [1e-5, -1e-5].map(|by| {
+            let d: Vec<f64> = s.v.iter().map(|v| by * v).collect();
+            let mut moved = s.clone();
+            loaded.retract(&s.q, &d, &mut moved.q);
+            places(&mut loaded, &moved)
+        });
+        let mut drawn = 0.0;
+        for (k, line) in loaded.line_forces(&s).iter().enumerate() {
+            let speed = |i: usize| 5e4 * (moved[0][k][i] - moved[1][k][i]);
+            let density: Vec<f64> =
+                line.points.iter().enumerate().map(|(i, [_, force])| force.dot(speed(i))).collect();
+            for i in 1..density.len() {
+                let length = (initial[k][i] - initial[k][i - 1]).norm();
+                drawn += 0.5 * length * (density[i] + density[i - 1]);
+            }
+        }
+        assert!((drawn / power - 1.0).abs() < 5e-3, "{shears:?}: {drawn} {power}");
     }
 }
 

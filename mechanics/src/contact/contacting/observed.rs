@@ -3,8 +3,8 @@
 use super::{Contact, Contacting, Law, Placed};
 use crate::contact::points::Points;
 use crate::system::{
-    Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, Mode,
-    Observed, PointForce, Power, Role, Sink, Slender, State,
+    Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, LineForce,
+    Mode, Observed, PointForce, Power, Role, Sink, Slender, State,
 };
 
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
@@ -110,6 +110,10 @@ impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
             all.push(PointForce { name, place, force, ..PointForce::default() });
         }
         all
+    }
+
+    fn line_forces(&mut self, s: &State) -> Vec<LineForce> {
+        self.inner.line_forces(s)
     }
 
     fn direction(&self, i: usize) -> Direction {

@@ -4,7 +4,8 @@ use super::group::Group;
 use super::site::Share;
 use super::{Amplitude, Axes, Load, Site};
 use crate::hub_beam::Fields;
-use crate::profile::Profile;
+use crate::linalg::Vec3;
+use crate::profile::{Profile, drawn};
 use std::sync::Arc;
 
 /// A force per length f(t) p(x) F along the axis.
@@ -29,9 +30,26 @@ impl DistributedForce {
         stations.extend(self.distribution.iter().flat_map(|p| p.breaks()));
         stations
     }
+
+    /// Stations at which it is drawn on a beam of this length \[m\].
+    pub(super) fn drawn(&self, length: f64) -> Vec<f64> {
+        drawn(self.distribution.as_deref(), self.range.into(), length)
+    }
+
+    /// Force per length at a station \[m\] and a time \[s\], in the axes that it refers to [N/m].
+    pub(in crate::hub_beam) fn at(&self, station: f64, time: f64) -> Vec3 {
+        let share = self.distribution.as_ref().map_or(1.0, |p| p.value(station));
+        let factor = share * self.amplitude.as_ref().map_or(1.0, |f| f.value(time));
+        let [x, y] = self.force;
+        factor * Vec3([x, y, 0.0])
+    }
 }
 
 impl Load for DistributedForce {
+    fn along(&self) -> Option<&DistributedForce> {
+        Some(self)
+    }
+
     fn group(&self, site: &Site<'_>) -> Option<Group> {
         let density = |x: f64| {
             if x < self.range.0 || x > self.range.1 {

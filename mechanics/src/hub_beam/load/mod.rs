@@ -62,6 +62,11 @@ pub trait Load: std::fmt::Debug + sealed::Sealed {
         None
     }
 
+    /// The load itself, if it is a force per length.
+    fn along(&self) -> Option<&DistributedForce> {
+        None
+    }
+
     /// The damper that comes with it.
     fn damper(&self, _site: &Site<'_>) -> Option<Damper> {
         None
@@ -92,6 +97,8 @@ pub struct Loads {
     dampers: Vec<Damper>,
     laws: Vec<Sampled>,
     points: Vec<(Force, f64)>,
+    /// Forces per length, with the stations at which they are drawn \[m\].
+    lines: Vec<(DistributedForce, Vec<f64>)>,
     breaks: Vec<Break>,
     /// Part of the loads that is not applied: 0 except during the continuation of an equilibrium.
     missing: f64,
@@ -107,7 +114,10 @@ impl Loads {
         let dampers = loads.iter().filter_map(|load| load.damper(site)).collect();
         let laws = loads.iter().filter_map(|load| load.sampled(site)).collect();
         let points = loads.iter().filter_map(|load| load.at_point()).collect();
-        Loads { groups, dampers, laws, points, breaks, missing: 0.0, force: vec![0.0; site.fields.len()] }
+        let along = loads.iter().filter_map(|load| load.along());
+        let lines = along.map(|load| (load.clone(), load.drawn(site.fields.length()))).collect();
+        let force = vec![0.0; site.fields.len()];
+        Loads { groups, dampers, laws, points, lines, breaks, missing: 0.0, force }
     }
 
     /// Whether there is no load.
@@ -123,6 +133,11 @@ impl Loads {
     /// Forces and couples at points.
     pub(super) fn points(&self) -> &[(Force, f64)] {
         &self.points
+    }
+
+    /// Forces per length, with the stations at which they are drawn \[m\].
+    pub(super) fn lines(&self) -> &[(DistributedForce, Vec<f64>)] {
+        &self.lines
     }
 
     /// Part of the loads that is applied.

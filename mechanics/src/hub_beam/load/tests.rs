@@ -10,6 +10,7 @@ use crate::hub_beam::{
     Placement, Station,
 };
 use crate::law::{ForceLaw, LinearDrag, Place, Response};
+use crate::linalg::Vec3;
 use crate::profile::Expression;
 use crate::system::{Observed, System};
 use std::sync::Arc;
@@ -321,6 +322,45 @@ fn a_force_that_is_drawn_does_the_work_of_its_load() {
         assert!(relative(&expected, &forces) < 1e-9, "{axes:?}: {expected:?} {forces:?}");
         let moment = drawn.place.cross(drawn.force)[2];
         assert!((moment / torque - 1.0).abs() < 1e-9, "{axes:?}: {moment} {torque}");
+    }
+}
+
+/// By Simpson's rule over the places at which it is drawn, three within an element: its error, by the bending of the element, is 7e-5 of loads that
+/// keep their direction, and 4e-4 of one that follows a section.
+#[test]
+fn a_force_per_length_that_is_drawn_does_the_work_of_its_load() {
+    let beam = beam(&[]);
+    let build = || exact(hub(), &beam);
+    for axes in AXES {
+        let from = LENGTH / 3.0;
+        let load =
+            DistributedForce { amplitude: profile("1 + t^2"), range: (from, STATION), ..distributed(axes) };
+        let point = force(axes, LENGTH);
+        let mut system = build().with_loads(&beam, &[&point, &load]);
+        let s = state(&system, 0.05);
+        let all = system.line_forces(&s);
+        assert_eq!((all.len(), all[0].points.len()), (1, 3));
+        let drawn = all[0].points.clone();
+        let third = (STATION - from) / 6.0;
+        let forces = drawn.iter().zip([1.0, 4.0, 1.0]).map(|([_, f], weight)| weight * third * *f);
+        let forces: Vec<Vec3> = forces.collect();
+        let step = 1e-3;
+        let mut places = |i: usize, by: f64| {
+            let mut moved = s.clone();
+            moved.q[i] += by;
+            system.line_forces(&moved)[0].points.iter().map(|[place, _]| *place).collect::<Vec<_>>()
+        };
+        let mut work = |i: usize| {
+            let [after, before] = [step, -step].map(|by| places(i, by));
+            let moved = after.iter().zip(&before).map(|(a, b)| (0.5 / step) * (*a - *b));
+            moved.zip(&forces).map(|(by, f)| f.dot(by)).sum::<f64>()
+        };
+        let expected: Vec<f64> = (0..s.q.len()).map(&mut work).collect();
+        let (found, torque) = added(&build, &beam, &load, &s);
+        let error = relative(&expected, &found);
+        assert!(error < 1e-3, "{axes:?}: {error} of {expected:?} {found:?}");
+        let moment: f64 = drawn.iter().zip(&forces).map(|([place, _], f)| place.cross(*f)[2]).sum();
+        assert!((moment / torque - 1.0).abs() < 1e-3, "{axes:?}: {moment} {torque}");
     }
 }
 
