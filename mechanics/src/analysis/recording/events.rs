@@ -279,7 +279,13 @@ impl Events {
                     }
                 }
                 (EventKind::Crossing { indicators }, _, Some(own)) if indicators.contains(&own) => {
-                    contact.gap = -contact.gap;
+                    // A gap at rest may have either sign within rounding.
+                    contact.gap = match now {
+                        Some(now) if now.rate != 0.0 => {
+                            contact.gap.abs().max(f64::MIN_POSITIVE).copysign(now.rate)
+                        }
+                        _ => -contact.gap,
+                    };
                     let pressed = &mut self.pressed[i];
                     if contact.gap < 0.0 {
                         *pressed = Pressed { since: Some(time), ..Pressed::default() };
@@ -466,6 +472,7 @@ mod tests {
             events.pressed[2].enter(t, &at(-x, 0.0, 2.0 * x));
         }
         (events.pressed[2].impulse, events.pressed[2].lost) = (0.5, 0.25);
+        events.samples[2] = at(0.0, 1.5, 0.0);
         events.add(&Event { time: 0.7, kind: crossing(), modes });
         events.add(&Event { time: 0.8, kind: EventKind::Switch, modes: vec![Mode::Open; 4] });
         let rows: Vec<String> = events.list.iter().map(|e| text(&events, e)).collect();
