@@ -20,9 +20,6 @@ mod impact;
 mod obstacle;
 mod points;
 
-/// Gap at which a contact touches, over the length of the system.
-pub(crate) const TOUCHING: f64 = 1e-13;
-
 pub use augmented::Augmented;
 pub use cone::{FEW, RowLaw, Unresolved};
 pub use contacting::{Contact, Contacting, Law};
@@ -30,4 +27,5 @@ pub use few::Few;
 pub use force::{ContactForce, Dissipation, Response, delivered};
 pub use impact::{Bounds, Impact, ImpactError, ImpactMap, Neglected};
 pub use obstacle::{Circle, Obstacle, Plane, Sphere, Surface, Translation};
+pub(crate) use points::TOUCHING;
 pub use points::{Curve, PointMotion, Points, Variation};

@@ -4,6 +4,9 @@ use super::obstacle::Obstacle;
 use crate::linalg::{Mat3, Matrix, Vec3};
 use crate::system::{Frame, State};
 
+/// Gap at which a contact touches, over the length of the system.
+pub(crate) const TOUCHING: f64 = 1e-13;
+
 /// Motion of a point, in the axes in which its obstacle is given.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PointMotion {

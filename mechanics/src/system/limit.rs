@@ -149,7 +149,7 @@ pub enum Limit {
     /// The forces of rigid contacts may follow from each other.
     #[error(
         "the rigid contacts {} are closed at once, and their forces may follow from each other, as those of four corners of a body do: \
-         use a nonsmooth method (Moreau–Jean, nonsmooth generalized-α), fewer contacts, or a continuous contact force",
+         use a nonsmooth method (Moreau–Jean, nonsmooth generalized-α) where this is none, shorter steps, fewer contacts, or a continuous contact force",
         contacts.join(", ")
     )]
     DependentContacts {

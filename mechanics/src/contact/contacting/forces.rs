@@ -1,11 +1,9 @@
 //! Normal force and friction of a contact at a state.
 
 use super::proximity::Proximity;
-use super::{Law, Placed};
 use crate::contact::obstacle::Surface;
 use crate::linalg::Vec3;
 use crate::linalg::vector::inner;
-use crate::system::State;
 
 /// Normal force and friction of a contact at a state, with their derivatives by a variation.
 pub(super) struct Forces {
@@ -16,39 +14,6 @@ pub(super) struct Forces {
     /// ∂T by N, and by the sliding velocity.
     pub by_normal: [f64; 2],
     pub by_sliding: [[f64; 2]; 2],
-}
-
-impl Placed {
-    /// The forces at a state.
-    pub(super) fn forces(&self, near: &Proximity, s: &State, memory: usize) -> Forces {
-        match &self.contact.law {
-            Law::Constraint { .. } => Forces {
-                normal: s.lambda[self.place],
-                friction: [0, 1].map(|i| self.friction.clone().nth(i).map_or(0.0, |row| s.lambda[row])),
-                by_gap: [0.0; 2],
-                by_normal: [0.0; 2],
-                by_sliding: [[0.0; 2]; 2],
-            },
-            Law::Force(law) => {
-                let normal = law.normal(-near.surface.gap, -near.rate, s.memory[memory + self.place]);
-                let (part, slope) = law.friction(near.sliding);
-                Forces {
-                    normal: normal.value,
-                    friction: part.map(|part| part * normal.value),
-                    by_gap: [-normal.by_indentation, -normal.by_rate],
-                    by_normal: part,
-                    by_sliding: slope.map(|row| row.map(|x| x * normal.value)),
-                }
-            }
-        }
-    }
-    /// Power lost in friction and damping.
-    pub(super) fn lost(&self, near: &Proximity, forces: &Forces) -> f64 {
-        let friction = -inner(forces.friction, near.sliding);
-        let Law::Force(law) = &self.contact.law else { return friction };
-        let elastic = law.normal(-near.surface.gap, 0.0, 0.0).value;
-        friction - (forces.normal - elastic) * near.rate
-    }
 }
 
 impl Forces {

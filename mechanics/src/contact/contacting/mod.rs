@@ -29,6 +29,7 @@ mod proximity;
 use super::force::ContactForce;
 use super::obstacle::Obstacle;
 use super::points::{Curve, Points, Variation};
+use crate::linalg::vector::inner;
 use crate::linalg::{Matrix, Structure, Vec3};
 use crate::system::{
     Break, Corotation, Crossing, Dynamics, Events, Jump, Limit, Mode, NotSet, Observed, Parameter, Power,
@@ -121,6 +122,39 @@ impl Placed {
         let Contact { point, obstacle, law, .. } = &self.contact;
         let away = matches!(law, Law::Force(_)) && Proximity::is_away(model, *point, obstacle.as_ref(), s);
         (!away).then(|| self.proximity(model, s))
+    }
+}
+
+impl Placed {
+    /// The forces at a state.
+    fn forces(&self, near: &Proximity, s: &State, memory: usize) -> Forces {
+        match &self.contact.law {
+            Law::Constraint { .. } => Forces {
+                normal: s.lambda[self.place],
+                friction: [0, 1].map(|i| self.friction.clone().nth(i).map_or(0.0, |row| s.lambda[row])),
+                by_gap: [0.0; 2],
+                by_normal: [0.0; 2],
+                by_sliding: [[0.0; 2]; 2],
+            },
+            Law::Force(law) => {
+                let normal = law.normal(-near.surface.gap, -near.rate, s.memory[memory + self.place]);
+                let (part, slope) = law.friction(near.sliding);
+                Forces {
+                    normal: normal.value,
+                    friction: part.map(|part| part * normal.value),
+                    by_gap: [-normal.by_indentation, -normal.by_rate],
+                    by_normal: part,
+                    by_sliding: slope.map(|row| row.map(|x| x * normal.value)),
+                }
+            }
+        }
+    }
+    /// Power lost in friction and damping.
+    fn lost(&self, near: &Proximity, forces: &Forces) -> f64 {
+        let friction = -inner(forces.friction, near.sliding);
+        let Law::Force(law) = &self.contact.law else { return friction };
+        let elastic = law.normal(-near.surface.gap, 0.0, 0.0).value;
+        friction - (forces.normal - elastic) * near.rate
     }
 }
 

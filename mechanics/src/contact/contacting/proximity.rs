@@ -1,8 +1,7 @@
 //! A point and the surface before it: gap, sliding velocity and their rates.
 
-use crate::contact::TOUCHING;
 use crate::contact::obstacle::{Obstacle, Surface};
-use crate::contact::points::{Curve, PointMotion, Points};
+use crate::contact::points::{Curve, PointMotion, Points, TOUCHING};
 use crate::linalg::Vec3;
 use crate::system::State;
 
