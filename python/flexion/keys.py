@@ -1016,8 +1016,8 @@ BeamOnHubContact = TypedDict(
         "points": "int",
         # rigid obstacle
         "obstacle": "Union[BeamOnHubContactObstaclePlane, BeamOnHubContactObstacleCylinder, BeamOnHubContactObstacleSphere, BeamOnHubContactObstacleStop]",
-        # part that the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop
-        "mount": 'Union[Literal["ground"], Literal["hub"]]',
+        # part that the obstacle is fixed to, in whose axes and from whose point it is given: `ground`, `hub`, a body or a place of a beam in space; the ground if left out, the hub of a stop
+        "mount": "str",
         # law of the contact
         "law": "Union[BeamOnHubContactLawMassless, BeamOnHubContactLawConstraint, BeamOnHubContactLawHertz, BeamOnHubContactLawHuntCrossley, BeamOnHubContactLawLankaraniNikravesh, BeamOnHubContactLawFlores, BeamOnHubContactLawGonthier, BeamOnHubContactLawMatched]",
     },
@@ -1784,8 +1784,8 @@ SystemContact = TypedDict(
         "points": "int",
         # rigid obstacle
         "obstacle": "Union[SystemContactObstaclePlane, BeamOnHubContactObstacleCylinder, BeamOnHubContactObstacleSphere, BeamOnHubContactObstacleStop]",
-        # part that the obstacle is fixed to, in whose axes it is given: the ground if left out, the hub of a stop
-        "mount": 'Union[Literal["ground"], Literal["hub"]]',
+        # part that the obstacle is fixed to, in whose axes and from whose point it is given: `ground`, `hub`, a body or a place of a beam in space; the ground if left out, the hub of a stop
+        "mount": "str",
         # law of the contact
         "law": "Union[BeamOnHubContactLawMassless, BeamOnHubContactLawConstraint, BeamOnHubContactLawHertz, BeamOnHubContactLawHuntCrossley, BeamOnHubContactLawLankaraniNikravesh, BeamOnHubContactLawFlores, BeamOnHubContactLawGonthier, BeamOnHubContactLawMatched]",
     },
