@@ -27,6 +27,52 @@ fn restitution_of_a_point_of_a_beam_in_space_is_one_of_the_mesh() {
     assert!(!case(ball, "ball"));
 }
 
+/// A ball that is set down on a floor, with a gap that is zero or rounding, touches without a speed: the law of Hunt and Crossley, whose damping is over the closing
+/// speed, damps nothing then, and the ball goes to and fro between the height of the touch and 2mg/K below it.
+#[test]
+fn a_ball_that_is_set_down_is_not_damped_by_a_speed_that_is_rounding() {
+    for height in ["0.1", "0.09999999999999999", "0.10000000000000002"] {
+        let text = format!(
+            "gravity=[0,0,-9.81]\nrun={{duration=0.2}}\noutput={{step='0.1 ms'}}\nintegrator={{kind='radau',tolerance=1e-9,absolute-tolerance=1e-13}}\n\
+             [[body]]\nname='ball'\nmass=1\ninertia={{kind='sphere',radius=0.1}}\nposition=[0,0,{height}]\n\
+             [[contact]]\nname='floor'\non='ball'\nradius=0.1\nobstacle={{kind='plane',normal=[0,0,1]}}\n\
+             law={{kind='hunt-crossley',stiffness=1e5,exponent=1,restitution=0.5}}\n"
+        );
+        let run = finished(&reading(&text, &[]));
+        let gap = run.trajectory.extremes(run.trajectory.index("floor.gap").unwrap());
+        assert!((gap.min + 2.0 * 9.81 / 1e5).abs() < 1e-8, "{height}: {}", gap.min);
+        let kinds: Vec<&str> = run.events.list.iter().map(|event| event.what).collect();
+        assert_eq!(kinds.first(), Some(&"touched"), "{height}: {kinds:?}");
+    }
+}
+
+/// What carries an obstacle is a part of another name than what touches it.
+#[test]
+fn what_carries_an_obstacle_is_said_by_its_name() {
+    let refused = |mount: &str| {
+        let text = format!(
+            "run={{duration=0.01}}\n[[body]]\nname='ball'\nmass=1\nposition=[0,0,5]\ninertia={{kind='sphere',radius=0.1}}\n[[body]]\nname='anvil'\nmass=1\n\
+             inertia={{kind='sphere',radius=0.1}}\nposition=[0,0,1]\n[[beam]]\nname='rod'\nstart=[0,0,2]\nlength=1\nelements=2\n\
+             section={{kind='circle',modulus=70e9,density=2700,radius=0.01}}\n\
+             [[contact]]\non='ball'\nmount='{mount}'\nobstacle={{kind='sphere',radius=0.1}}\nlaw={{kind='constraint',restitution=0.5}}\n"
+        );
+        let read = flexion_case::parse(text, std::path::Path::new("case.toml"), &[]);
+        read.and_then(|reading| reading.prepare().map(drop)).map_err(|problems| problems.to_string())
+    };
+    for (mount, part) in [
+        ("ball", "carries the obstacle, and does not touch it"),
+        ("anvli", "did you mean `anvil`?"),
+        ("rod", "write for example `rod.tip`"),
+        ("hub", "fixed to the ground, or to a part, or moved"),
+    ] {
+        let message = refused(mount).unwrap_err();
+        assert!(message.contains("contact[1].mount") && message.contains(part), "{mount}: {message}");
+    }
+    for mount in ["ground", "anvil", "rod.tip", "rod@0.3 m"] {
+        assert_eq!(refused(mount), Ok(()));
+    }
+}
+
 /// A box that falls flat on its four corners: the fourth force follows from the others.
 #[test]
 fn contacts_whose_forces_follow_from_each_other_are_named() {
