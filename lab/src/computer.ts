@@ -40,6 +40,8 @@ const MOST = 1e9;
 const PATIENCE = 15;
 /** A case that takes longer to be read than this is not read without a click [s]: what it will take is not counted before it has been read. */
 const READING = 3;
+/** What is said while files are made. */
+export const MAKING = "making the files …";
 /** Reading a case that takes longer than this is told [ms]. */
 const SOON = 300;
 /** An older request that takes longer than this is not waited for [s]. */
@@ -62,6 +64,8 @@ export class Computer {
   /** One worker for questions about the case, another for its answers. */
   private readonly quick = new Lane(this.module);
   private readonly runner = new Lane(this.module);
+  /** Makes files. */
+  private saving?: Lane;
   private wanted?: Asked;
   private present?: Asked;
   private running = false;
@@ -114,6 +118,7 @@ export class Computer {
     this.stops += 1;
     this.wanted = undefined;
     this.runner.stop();
+    this.saving?.stop();
     if (this.reading) this.quick.stop();
     if (words) this.told.said(words, undefined, "compute");
   }
@@ -135,11 +140,16 @@ export class Computer {
     return set && Object.entries(set).map(([key, value]) => `${key}=${bare(value)}`);
   }
 
-  /** The files that the program would write. */
+  /** The files that the program would write; those that were asked for before are given up. */
   async files(asked: Asked): Promise<Reply> {
-    const lane = new Lane(this.module);
+    this.saving?.stop();
+    const lane = (this.saving = new Lane(this.module));
     const range = asked.range ?? (asked.kind === "campbell" ? await this.range(asked) : undefined);
-    return lane.ask({ ...this.request({ ...asked, range }), do: "files", of: asked.kind, errors: true, limits: this.limits(true) }).finally(() => lane.end());
+    const request = { ...this.request({ ...asked, range }), do: "files", of: asked.kind, errors: true, limits: this.limits(true) };
+    // What is computed beside it is told first.
+    const told = (text: string) => this.running || this.progress(text, MAKING);
+    told("{}");
+    return lane.ask(request, Infinity, told).finally(() => lane.end());
   }
 
   private limits(lifted = this.lifted) {
@@ -281,15 +291,14 @@ export class Computer {
 
   private ask(request: Request): Promise<Reply> {
     this.told.grown();
-    return this.runner.ask(request, this.lifted ? Infinity : PATIENCE, (text) => this.progress(text, request.errors === true));
+    return this.runner.ask(request, this.lifted ? Infinity : PATIENCE, (text) => this.progress(text, request.errors === true ? "estimating the error …" : "computing …"));
   }
 
-  private progress(text: string, errors: boolean) {
+  private progress(text: string, words: string) {
     try {
       const { time, end, rows } = JSON.parse(text);
       if (rows) this.told.grown(rows, end);
       const share = typeof time === "number" && end > 0 ? time / end : undefined;
-      const words = errors ? "estimating the error …" : "computing …";
       this.told.said(words, share, "stop");
     } catch {
       // A notice that cannot be read says nothing.

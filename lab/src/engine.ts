@@ -183,6 +183,8 @@ export class Lane {
           this.stop(event.message || "the worker could not be started", "fell");
         };
         worker.onmessage = ({ data }: MessageEvent<{ progress?: string; reply?: string; trap?: string; bytes?: number }>) => {
+          // What was on its way when the worker was ended.
+          if (this.worker !== worker) return;
           if (data.progress !== undefined) progress?.(data.progress);
           else if (data.trap !== undefined) this.stop(data.trap, "fell");
           else {

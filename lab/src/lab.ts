@@ -5,7 +5,7 @@ import "./answer.css";
 import "./screens.css";
 import { Answer, type Pin } from "./answer";
 import { tag } from "./curves";
-import { Computer, type Asked } from "./computer";
+import { Computer, MAKING, type Asked } from "./computer";
 import { campbell } from "./diagram";
 import { base64, bytes, Stopped, type Entry, type Kind, type Problem, type Reply } from "./engine";
 import { example, Form, quantity, written } from "./form";
@@ -530,8 +530,10 @@ const saves: Record<string, () => Promise<void>> = {
     tell("The film is saved.");
   },
   files: async () => {
-    tell("The files are made.");
-    const reply = await computer.files(asked());
+    const [words, offered] = [element("state").textContent ?? "", !element("compute").hidden];
+    const reply = await computer.files(asked()).finally(() => {
+      if (element("state").textContent === MAKING) said(words === MAKING ? "" : words, undefined, offered ? "compute" : undefined);
+    });
     if (!reply.files) throw new Error(reply.message ?? "There are no files of this answer.");
     save.download(zip(decoded(reply.files)), `${file()}.zip`);
   },

@@ -4,7 +4,7 @@ import { numbers, type Results } from "./data";
 import { Columns } from "./curves";
 import { Player } from "./player";
 import type { Drawn, Kept, Room } from "./room";
-import { end, extent, instant, largest, pose, scene, sections, type Acting, type Instant, type Part, type Section } from "./scene";
+import { between, end, extent, instant, largest, pose, scene, sections, type Acting, type Instant, type Part, type Section } from "./scene";
 import { Stage, type View } from "./stage";
 import { nice, steady, text } from "./text";
 import { button, choice, toggle } from "./tools";
@@ -27,6 +27,13 @@ function speed(span: number): number {
 
 /** Where a point is drawn. */
 type Drawing = (point: Vector3) => Vector3;
+
+/** A time, what is carried between the recorded ones, and where points are drawn. */
+interface Moment {
+  at: Instant;
+  carried: ReturnType<typeof between>;
+  drawn: Drawing;
+}
 
 /** What is drawn of a run. */
 type Run = ReturnType<typeof read>;
@@ -151,24 +158,24 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   let transmitted = kept?.transmitted ?? true;
 
   /** A place and the vector behind it among six numbers of every time, as it is drawn with the largest as long as `most`. */
-  function arrow(values: Float64Array, { from, to, share }: Instant, [index, count]: [number, number], most: number, drawn: Drawing): [Vector3, Vector3] {
-    const [a, b] = [6 * (count * from + index), 6 * (count * to + index)];
-    const entry = (i: number) => values[a + i] + share * (values[b + i] - values[a + i]);
-    return [drawn(new Vector3(entry(0), entry(1), entry(2))), new Vector3(entry(3), entry(4), entry(5)).multiplyScalar(most)];
+  function arrow(values: Float64Array, { at, carried, drawn }: Moment, [index, count]: [number, number], most: number): [Vector3, Vector3] {
+    const entry = (time: number, i: number) => new Vector3().fromArray(values, 6 * (count * time + index) + i);
+    const [place, along] = [0, 3].map((i) => carried(entry(at.from, i), entry(at.to, i), i === 3));
+    return [drawn(place), along.multiplyScalar(most)];
   }
 
   /** Whether a vector is long enough to be seen. */
   const isSeen = ([, along]: [Vector3, Vector3]) => along.length() > 1e-2 * stage.arrow;
 
   /** Places of forces or couples, and vectors as long as they are large. */
-  function arrows(all: Acting[], strongest: number, at: Instant, drawn: Drawing): [Vector3, Vector3][] {
-    return all.map(({ values }) => arrow(values, at, [0, 1], stage.arrow / (strongest || 1), drawn)).filter(isSeen);
+  function arrows(all: Acting[], strongest: number, moment: Moment): [Vector3, Vector3][] {
+    return all.map(({ values }) => arrow(values, moment, [0, 1], stage.arrow / (strongest || 1))).filter(isSeen);
   }
 
   /** The same of forces per length, which are half as long. */
-  function rows(at: Instant, drawn: Drawing): [Vector3, Vector3][][] {
+  function rows(moment: Moment): [Vector3, Vector3][][] {
     return run.space.along.map(({ points, values }) => {
-      const row = Array.from({ length: points }, (_, k) => arrow(values, at, [k, points], stage.arrow / (2 * run.densest), drawn));
+      const row = Array.from({ length: points }, (_, k) => arrow(values, moment, [k, points], stage.arrow / (2 * run.densest)));
       return row.some(isSeen) ? row : [];
     });
   }
@@ -252,15 +259,15 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     const { space, pieces } = run;
     const at = instant(space.times, time);
     const outlines = space.outlines.map(({ points }) => outline(points, at));
-    const drawn = drawing(at);
+    const moment: Moment = { at, carried: between(space.parts, at), drawn: drawing(at) };
     stage.place({
       poses: space.parts.map((part) => pose(part, at)),
       sections: shapes(at),
       outlines,
       frame: frame(at),
       others: others(time),
-      acting: space.acting.map((of, kind) => (transmitted || kind < 2 ? arrows(of, run.strongest[kind], at, drawn) : [])),
-      along: rows(at, drawn),
+      acting: space.acting.map((of, kind) => (transmitted || kind < 2 ? arrows(of, run.strongest[kind], moment) : [])),
+      along: rows(moment),
     });
     stage.follow(Math.floor(pieces * (at.from + at.share)) + 1);
     stage.render();

@@ -150,6 +150,26 @@ export function pose(part: Part, { from, to, share }: Instant): Section {
   return result;
 }
 
+/** Between two times, a point, or a vector if it is `free`, of both: in the frame in which it changes least, at rest or of a part. */
+export function between(parts: Part[], at: Instant): (before: Vector3, after: Vector3, free: boolean) => Vector3 {
+  const { from, to, share } = at;
+  const ends = [from, to].map((k): Instant => ({ from: k, to: k, share: 0 }));
+  const frames = share > 0 && share < 1 ? parts.map((part) => [...ends, at].map((time) => pose(part, time))) : [];
+  return (before, after, free) => {
+    let [least, result] = [before.distanceToSquared(after), before.clone().lerp(after, share)];
+    for (const [first, last, now] of frames) {
+      const seen = (point: Vector3, { position, turned }: Section) =>
+        (free ? point.clone() : point.clone().sub(position)).applyQuaternion(turned.clone().conjugate());
+      const [a, b] = [seen(before, first), seen(after, last)];
+      const change = a.distanceToSquared(b);
+      if (change >= least) continue;
+      [least, result] = [change, a.lerp(b, share).applyQuaternion(now.turned)];
+      if (!free) result.add(now.position);
+    }
+    return result;
+  };
+}
+
 /** The section at a station in the axes of the root: its place, and its rotation vector. */
 function displaced(beam: Beam, k: number, { from, to, share }: Instant, factor: number) {
   const m = beam.stations.length;

@@ -50,6 +50,16 @@ async function edit(page, from, to) {
   await page.keyboard.insertText(text.replace(from, to));
 }
 
+/** Pixels of arrows: dark red is nothing else in the picture. */
+const red = (page) => page.$eval("#canvas", (canvas) => {
+  const brush = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  brush.drawImage(canvas, 0, 0);
+  const { data } = brush.getImageData(0, 0, canvas.width, canvas.height);
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 100 && data[i] > 130 && data[i + 1] < 90 && data[i + 2] < 90) count += 1;
+  return count;
+});
+
 const journeys = {
   async "a link is opened"(page, { requested }) {
     // Looked at after every change of the page: a list of its controls that is taken first and looked at later holds some that have been replaced.
@@ -235,24 +245,32 @@ const journeys = {
     assert.match(await page.textContent("#note"), /Grey is what joints and springs transmit, 30\.1 N and 210 N·m at most/);
   },
   async "a load along a beam has a row of arrows"(page) {
-    // Dark red is nothing else in the picture.
-    const red = () => page.$eval("#canvas", (canvas) => {
-      const brush = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
-      brush.drawImage(canvas, 0, 0);
-      const { data } = brush.getImageData(0, 0, canvas.width, canvas.height);
-      let count = 0;
-      for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 100 && data[i] > 130 && data[i + 1] < 90 && data[i + 2] < 90) count += 1;
-      return count;
-    });
     await page.goto(`${lab}#case=distributed_load`);
     await answered(page);
     // `force-per-length` of the case.
     assert.match(await page.textContent("#note"), /Rows of arrows are forces per length, the longest 800 N\/m\./);
-    assert.ok((await red()) > 500, `${await red()} pixels of arrows`);
+    assert.ok((await red(page)) > 500, `${await red(page)} pixels of arrows`);
     await page.goto(`${lab}#case=p1_spin_up_4`);
     await answered(page);
     assert.doesNotMatch(await page.textContent("#note"), /per length/);
-    assert.equal(await red(), 0);
+    assert.equal(await red(page), 0);
+  },
+  async "a load stays on its beam between recorded times"(page) {
+    // The hub turns by 2 rad between them: in its own frame the picture is at every time the same.
+    const text = `[beam]\nlength = "2 m"\n[section]\nkind = "resultants"\nmass-per-length = "1 kg/m"\naxial-stiffness = "1e8 N"\nbending-stiffness = "1e6 N*m^2"\n[hub]\nmotion = { kind = "constant", speed = "2 rad/s" }\n[basis]\nkind = "finite-elements"\nelements = 4\n[[load]]\non = "beam"\nforce-per-length = ["0 N/m", "4 N/m"]\naxes = "hub"\n[initial]\nkind = "steady-rotation"\n[run]\nduration = "2 s"\n[output]\nstep = "1 s"\n`;
+    await page.goto(`${lab}#c=${deflateRawSync(text).toString("base64url")}`);
+    await answered(page);
+    const button = page.locator("#options button", { hasText: "Rotating frame" });
+    if ((await button.getAttribute("aria-pressed")) === "false") await button.click();
+    const at = (time) => page.$eval("#scrubber", (scrubber, time) => {
+      scrubber.value = time;
+      scrubber.dispatchEvent(new Event("input"));
+    }, time);
+    await at("1");
+    const recorded = await red(page);
+    await at("1.5");
+    const between = await red(page);
+    assert.ok(recorded > 300 && Math.abs(between / recorded - 1) < 0.05, `${recorded} pixels of arrows, and ${between} between recorded times`);
   },
   async "it plays, stops and steps"(page) {
     await page.goto(`${lab}#case=space_joints`);

@@ -208,6 +208,37 @@ export const standing = ({ lab, slide, edit, fragment }) => ({
     await page.waitForFunction(() => document.querySelector("#stop").hidden || /computing|reading/.test(document.querySelector("#state").textContent));
     if (await page.locator("#stop").isVisible()) await page.click("#stop");
   },
+  async "files that take long are told, and stopped"(page) {
+    await page.goto(`${lab}#case=p1_spin_up_4`);
+    await answered(page);
+    await put(page, "run.duration", "4000 s");
+    await page.waitForSelector("#compute:not([hidden])");
+    const before = await page.textContent("#state");
+    const save = async () => {
+      await page.click("#save summary");
+      await page.click("[data-save=files]");
+      await page.waitForFunction(() => document.querySelector("#state").textContent === "making the files …" && !document.querySelector("#stop").hidden);
+    };
+    await save();
+    await page.waitForFunction(() => document.querySelector("#progress").value > 0);
+    await page.click("#stop");
+    await page.waitForFunction(() => /stopped/i.test(document.querySelector("#said").textContent));
+    assert.match(await page.textContent("#state"), /^Stopped/);
+    // What was offered before is offered behind them.
+    await put(page, "run.duration", "3999 s");
+    await page.waitForFunction((before) => document.querySelector("#state").textContent === before, before);
+    await page.evaluate(() => {
+      const post = window.Worker.prototype.postMessage;
+      window.Worker.prototype.postMessage = function (data) {
+        post.call(this, data.request ? { request: data.request.replace('3999 s', '1 s') } : data);
+      };
+    });
+    const saved = page.waitForEvent("download");
+    await save();
+    await saved;
+    assert.equal(await page.textContent("#state"), before);
+    assert.ok(await page.locator("#compute").isVisible());
+  },
   async "a path without errors says why"(page) {
     await page.goto(`${lab}#case=distributed_load&do=statics`);
     await answered(page);
