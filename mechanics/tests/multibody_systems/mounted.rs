@@ -1,36 +1,14 @@
 //! Obstacles that bodies and beams carry.
 
 use super::contacts::run;
-use super::obstacles::{Made, conforms, flexible, moved};
+use super::obstacles::{Made, conforms, flexible, moved, obstacles};
 use super::{odd_body, radau, wave};
-use flexion::contact::{Circle, Contact, ContactForce, Contacting, Law, Plane, Sphere};
+use flexion::contact::{Circle, Contact, ContactForce, Contacting, Law, Sphere};
 use flexion::integrator::{MoreauJean, NonsmoothAlpha};
 use flexion::linalg::Vec3;
 use flexion::multibody::{Body, Marker, Model, Multibody, Part};
 use flexion::system::{Dynamics, Frame, Observed, State};
 use std::sync::Arc;
-
-fn obstacles() -> [Box<Made>; 4] {
-    let axis = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
-    [
-        Box::new(move |x| {
-            Arc::new(Plane { point: Vec3(axis.map(|n| x * n)), normal: Vec3(axis), motion: moved() })
-        }),
-        Box::new(move |radius| {
-            Arc::new(Circle {
-                centre: Vec3([0.1; 3]),
-                axis: Vec3(axis),
-                radius,
-                hollow: true,
-                motion: moved(),
-            })
-        }),
-        Box::new(|radius| {
-            Arc::new(Sphere { centre: Vec3([2.0, 1.5, 0.3]), radius, hollow: false, motion: moved() })
-        }),
-        Box::new(|radius| Arc::new(Sphere { centre: Vec3([0.2; 3]), radius, hollow: true, motion: moved() })),
-    ]
-}
 
 fn deformed(system: &Multibody, s: &mut State) {
     let d: Vec<f64> = (0..s.v.len()).map(|i| 0.06 * wave(i, 1.7)).collect();

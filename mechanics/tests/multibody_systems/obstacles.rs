@@ -27,6 +27,29 @@ pub(super) fn moved() -> Option<Translation> {
     Some(Translation { direction: Vec3([0.0, 0.6, 0.8]), displacement })
 }
 
+/// A plane, a hole, a ball and a hollow one, all of which move.
+pub(super) fn obstacles() -> [Box<Made>; 4] {
+    let axis = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
+    [
+        Box::new(move |x| {
+            Arc::new(Plane { point: Vec3(axis.map(|n| x * n)), normal: Vec3(axis), motion: moved() })
+        }),
+        Box::new(move |radius| {
+            Arc::new(Circle {
+                centre: Vec3([0.1; 3]),
+                axis: Vec3(axis),
+                radius,
+                hollow: true,
+                motion: moved(),
+            })
+        }),
+        Box::new(|radius| {
+            Arc::new(Sphere { centre: Vec3([2.0, 1.5, 0.3]), radius, hollow: false, motion: moved() })
+        }),
+        Box::new(|radius| Arc::new(Sphere { centre: Vec3([0.2; 3]), radius, hollow: true, motion: moved() })),
+    ]
+}
+
 /// Forces, rows and tangents of a contact that is 5 cm deep, against differences.
 pub(super) fn conforms(model: &Model, made: &Made, deform: impl Fn(&Multibody, &mut State)) {
     for law in [Law::Force(RUBBING), Law::Constraint { restitution: 0.2, friction: 0.6 }] {
@@ -60,25 +83,8 @@ fn a_ball_that_rubs_conforms_on_every_obstacle() {
     let mut model = Model::new().with_gravity([0.0, 0.0, -GRAVITY]);
     let part = model.body(odd_body("box", 0.3));
     model.contact_ball(Marker::new(part, [0.3, -0.2, 0.1]), 0.23);
-    let axis = [2.0 / 3.0, -1.0 / 3.0, 2.0 / 3.0];
-    let obstacles: [&Made; 4] = [
-        &move |x| Arc::new(Plane { point: Vec3(axis.map(|n| x * n)), normal: Vec3(axis), motion: moved() }),
-        &move |radius| {
-            Arc::new(Circle {
-                centre: Vec3([0.1; 3]),
-                axis: Vec3(axis),
-                radius,
-                hollow: true,
-                motion: moved(),
-            })
-        },
-        &move |radius| {
-            Arc::new(Sphere { centre: Vec3([2.0, 1.5, 0.3]), radius, hollow: false, motion: moved() })
-        },
-        &move |radius| Arc::new(Sphere { centre: Vec3([0.2; 3]), radius, hollow: true, motion: moved() }),
-    ];
-    for made in obstacles {
-        conforms(&model, made, |_, _| {});
+    for made in obstacles() {
+        conforms(&model, &*made, |_, _| {});
     }
 }
 

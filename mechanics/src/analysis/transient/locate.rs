@@ -395,6 +395,7 @@ impl Locator {
         if self.rests[k] { x + TOUCHING * self.length } else { self.signs[k] * x }
     }
 
+    /// The least indicator of a row, scaled.
     fn least_row(&self, values: &Values) -> f64 {
         let rows = (0..self.sets.len()).map(|i| {
             let (x, zero) = (values.indicator[i], values.zero[i]);
