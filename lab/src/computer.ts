@@ -83,7 +83,10 @@ export class Computer {
   }
 
   private async begin(): Promise<string> {
-    const { version, "work-per-second": perSecond } = await this.quick.ask({ do: "version" }, PATIENCE);
+    const told = this.quick.ask({ do: "version" }, PATIENCE);
+    // What fails here fails there too.
+    this.runner.start().catch(() => {});
+    const { version, "work-per-second": perSecond } = await told;
     this.perSecond = perSecond ?? PER_SECOND;
     return version ?? "";
   }

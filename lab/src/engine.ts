@@ -166,13 +166,18 @@ export class Lane {
     this.worker = undefined;
   }
 
-  private async send(request: Request, patience: number, progress?: (text: string) => void): Promise<Reply> {
+  /** Starts its worker where it has none: before the first request this takes its time while others are answered. */
+  async start(): Promise<Worker> {
     const module = await this.module;
     if (!this.worker) {
       this.worker = new EngineWorker();
       this.worker.postMessage({ module });
     }
-    const worker = this.worker;
+    return this.worker;
+  }
+
+  private async send(request: Request, patience: number, progress?: (text: string) => void): Promise<Reply> {
+    const worker = await this.start();
     this.since = performance.now();
     const limit = patience < Infinity ? setTimeout(() => this.stop(`This takes more than ${patience} s.`, "late"), 1000 * patience) : undefined;
     try {

@@ -347,7 +347,9 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     fitted = true;
   };
   room.canvas.addEventListener("resized", resized, { signal: room.signal });
-  again(fitted);
+  // What is in sight is fitted and drawn when the canvas has its size.
+  trace();
+  note();
   player.seek(player.time);
   return {
     kept: () => ({ ...player!.kept, factor, rotating, path, transmitted, seen: stage.seen, shown: curves.shown }),

@@ -254,6 +254,8 @@ export class Stage {
   private scale: string[] = [];
   /** The camera is moved, and a picture follows. */
   private moving = false;
+  /** What stands beside the first picture is painted first: its shaders take as long as all the rest. */
+  private waiting = true;
   private readonly canvas: HTMLCanvasElement;
   private readonly bar: HTMLElement;
 
@@ -294,7 +296,7 @@ export class Stage {
       this.controls.touches.ONE = THREE.TOUCH.PAN;
     }
     this.controls.addEventListener("change", () => this.moving || this.render());
-    const observer = new ResizeObserver(() => this.resize());
+    const observer = new ResizeObserver(() => this.waiting || this.resize());
     observer.observe(canvas.parentElement!);
     recoloured(() => {
       this.paint();
@@ -316,6 +318,11 @@ export class Stage {
     });
     this.paint();
     this.turn(scene.planar ? "xy" : "space");
+    const first = () => {
+      this.waiting = false;
+      if (!signal.aborted) this.resize();
+    };
+    requestAnimationFrame(() => requestAnimationFrame(first));
   }
 
   /** Looks from a side. */
