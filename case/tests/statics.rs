@@ -273,3 +273,21 @@ fn a_caution_says_where_bending_makes_the_axial_strain_of_a_beam_in_space_inaccu
     assert!(of(&run("model.coupling=space")).is_some());
     assert!(of(&run("model.coupling=exact")).is_none());
 }
+
+/// The inertia of a hub that sets off with α = 0.01 rad/s² grows with the loads: under the factor s its torque is s J α = 4 s N·m, J = 1.2 kg/m · (10 m)³/3 = 400 kg·m².
+#[test]
+fn the_inertia_of_a_hub_that_sets_off_is_a_load() {
+    let case = "[beam]\nlength=10\n[section]\nkind='uniform'\nmodulus='70 GPa'\ndensity=3000\narea='4 cm^2'\nsecond-moment=2e-7\n\
+                [hub]\nmotion={kind='ramp',speed=4,time=400}\n";
+    for coupling in ["zeroth", "first", "exact"] {
+        let set = format!("model.coupling={coupling}");
+        let path = written::reading(case, &[&set]).load_path(&Plan::to(1.0), |_, _| true).unwrap();
+        let column = |name: &str| path.channels.iter().position(|channel| channel.name == name).unwrap();
+        assert!(path.points.len() > 3);
+        for point in &path.points {
+            let of = |name: &str| point.values[column(name)];
+            assert_eq!(of("hub.acceleration"), 0.01 * point.factor);
+            assert!((of("hub.torque") - 4.0 * point.factor).abs() < 1e-5, "{coupling} {}: {}", point.factor, of("hub.torque"));
+        }
+    }
+}

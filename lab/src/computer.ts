@@ -136,10 +136,14 @@ export class Computer {
     return reply.case;
   }
 
-  /** How a text differs from another, as changes; nothing where that cannot be said. */
+  /** How a text differs from another, as changes; nothing where that cannot be said, or not soon. */
   async difference(text: string, from: string, files: Record<string, string>): Promise<string[] | null | undefined> {
     if (text === from) return [];
-    const { set } = await this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits() }, this.lifted ? PATIENCE : READING);
+    const asked = this.quick.ask({ do: "difference", case: text, from, files, limits: this.limits() }, this.lifted ? PATIENCE : READING);
+    const { set } = await asked.catch((error): Reply => {
+      if (error instanceof Stopped && error.why === "late") return {};
+      throw error;
+    });
     return set && Object.entries(set).map(([key, value]) => `${key}=${bare(value)}`);
   }
 

@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import { recoloured, styled } from "./colours";
 import type { Room } from "./room";
-import { steady, text, ticks } from "./text";
+import { labels, steady, text, ticks } from "./text";
 
 export interface Curve {
   name: string;
@@ -61,7 +61,7 @@ export const axis = (): uPlot.Axis => ({
   gap: 4,
   // uPlot's own never end where steps are smaller than 1e-16.
   splits: (plot, i, low, high) => ticks(low, high, Math.max(i === 0 ? plot.width / 55 : plot.height / 24, 2)),
-  values: (_, splits) => splits.map((value) => text(value, 6)),
+  values: (_, splits) => labels(splits),
 });
 
 /** Keeps a plot as wide as its node, and in the colours of the page. */

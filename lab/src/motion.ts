@@ -294,7 +294,8 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     const turned = moment > 0 ? `Arcs are couples, the widest ${text(moment, 3)} N·m.` : "";
     const most = [inJoints > 0 ? `${text(inJoints, 3)} N` : "", twisting > 0 ? `${text(twisting, 3)} N·m` : ""].filter((one) => one);
     const joined = transmitted && most.length > 0 ? `Grey is what joints and springs transmit, ${most.join(" and ")} at most.` : "";
-    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, spread, turned, joined, larger];
+    const left = run.space.left > 0 ? `${run.space.left} smaller ones are not drawn.` : "";
+    const parts = [blind, results.caution ? `${results.caution}.` : "", revolutions > 0.5 ? fast : "", forced, spread, turned, joined, left, larger];
     room.note.textContent = parts.join(" ").trim();
   };
   const again = (fitted = false) => {

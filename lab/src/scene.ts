@@ -53,6 +53,8 @@ export interface Scene {
   /** By KINDS: six numbers a time, the place and the force or the couple. */
   acting: Acting[][];
   along: Along[];
+  /** How many of the smallest of these are left out. */
+  left: number;
   /** Whether all stays in the plane of the first two axes. */
   planar: boolean;
 }
@@ -101,7 +103,7 @@ export function scene(arrays: Arrays): Scene {
     (part.beam?.displacements.every((x, i) => i % 3 !== 2 || x === 0) ?? false);
   const acting = KINDS.map((what) => names(`.${what}`).map((name): Acting => ({ name, values: get(`${name}.${what}`)! })));
   const along = names(".line-force").map((name): Along => ({ name, points: arrays[`${name}.line-force`].shape[1], values: get(`${name}.line-force`)! }));
-  return { times: get("time")!, parts, outlines, acting, along, planar: parts.every(flat) };
+  return { times: get("time")!, parts, outlines, acting, along, left: get("left-out")?.[0] ?? 0, planar: parts.every(flat) };
 }
 
 /** Where `time` lies among ascending times. */

@@ -37,3 +37,15 @@ export function ticks(low: number, high: number, count = 5): number[] {
   const last = Math.floor(high / step + 1e-9);
   return Array.from({ length: Math.min(last - first + 1, 100) }, (_, k) => Number(((first + k) * step).toPrecision(12)));
 }
+
+/** Numbers beside the lines of an axis: where they differ by little only, the first, and by how much the others are larger. */
+export function labels(values: number[]): string[] {
+  const most = Math.max(...values.map(Math.abs));
+  const digits = values.length > 1 ? Math.ceil(Math.log10(most / (values[1] - values[0]))) + 1 : 6;
+  if (!(digits > 8)) return values.map((value) => text(value, Math.max(digits, 6)));
+  return values.map((value, k) => {
+    if (k === 0) return text(value, Math.min(digits, 12));
+    // Lines that rounding has made one have one number.
+    return value > values[k - 1] ? `+${text(value - values[0], 3)}` : "";
+  });
+}

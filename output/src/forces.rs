@@ -44,39 +44,48 @@ impl Forces {
         }
     }
 
-    /// Puts the arrays of those that act.
+    /// Puts the arrays of those that act, and how many smaller ones are left out.
     ///
     /// # Errors
     /// Whatever `to` returns.
     pub(super) fn put(&self, times: u64, to: &mut dyn Arrays) -> io::Result<()> {
+        let mut left = 0;
         for (transmitted, kinds) in KINDS {
             for (i, what) in kinds.into_iter().enumerate() {
                 let of = self.at_points.iter().filter(|of| of.1 == transmitted);
-                for (name, _, values) in largest(of.map(|(name, _, values)| (name, 1, &*values[i])), MOST) {
+                let (kept, out) = largest(of.map(|(name, _, values)| (name, 1, &*values[i])), MOST);
+                left += out;
+                for (name, _, values) in kept {
                     to.put(&format!("{name}.{what}"), &[times, 6], Numbers::Single(values))?;
                 }
             }
         }
         let along = self.along.iter().map(|(name, points, values)| (name, *points, &**values));
-        for (name, points, values) in largest(along, MOST_POINTS) {
+        let (kept, out) = largest(along, MOST_POINTS);
+        left += out;
+        for (name, points, values) in kept {
             to.put(&format!("{name}.line-force"), &[times, points as u64, 6], Numbers::Single(values))?;
         }
-        Ok(())
+        if left > 0 { to.put("left-out", &[1], Numbers::Single(&[left as f32])) } else { Ok(()) }
     }
 }
 
-/// Those that act at some time, the largest of them with so many points in all, each with a name of its own.
+/// A force with its name and its number of points.
+type Named<N, V> = (N, usize, V);
+
+/// Those that act at some time, the largest of them with so many points in all, each with a name of its own, and how many are left out.
 fn largest<'f>(
-    all: impl Iterator<Item = (&'f String, usize, &'f [f32])>,
+    all: impl Iterator<Item = Named<&'f String, &'f [f32]>>,
     most: usize,
-) -> Vec<(String, usize, &'f [f32])> {
+) -> (Vec<Named<String, &'f [f32]>>, usize) {
     let size = |values: &[f32]| {
         let vectors = values.as_chunks::<6>().0.iter().flat_map(|at| &at[3..]);
         vectors.fold(0.0_f32, |most, x| most.max(x.abs()))
     };
     let mut acting: Vec<_> = all.filter(|(.., values)| size(values) > 0.0).collect();
     acting.sort_by(|a, b| size(b.2).total_cmp(&size(a.2)));
-    let mut named: Vec<(String, usize, &[f32])> = Vec::new();
+    let found = acting.len();
+    let mut named: Vec<Named<String, &[f32]>> = Vec::new();
     let mut total = 0;
     for (name, points, values) in acting {
         total += points;
@@ -89,5 +98,21 @@ fn largest<'f>(
         }
         named.push((own, points, values));
     }
-    named
+    let left = found - named.len();
+    (named, left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest;
+
+    #[test]
+    fn the_smallest_of_many_are_left_out_and_counted() {
+        let name = "contact".to_owned();
+        let values: Vec<[f32; 6]> = (0..60).map(|k| [0.0, 0.0, 0.0, 0.0, k as f32, 0.0]).collect();
+        let (kept, left) = largest(values.iter().map(|values| (&name, 1, &values[..])), 50);
+        // The first exerts nothing.
+        assert_eq!((kept.len(), left), (50, 9));
+        assert!(kept.iter().all(|(.., values)| values[4] >= 10.0));
+    }
 }

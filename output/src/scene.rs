@@ -15,6 +15,7 @@
 //! | `NAME.force` | (n, 6) | of a load or a contact at a point that acts at some time: place \[m\] and force \[N\], inertial axes; of the largest 50 |
 //! | `NAME.moment` | (n, 6) | of a load with a couple, likewise: place \[m\] and couple [N·m] |
 //! | `NAME.line-force` | (n, p, 6) | of a force per length along a beam: places from one end of it to the other \[m\] and the force per length there [N/m] |
+//! | `left-out` | (1) | number of forces, couples and forces per length that act and are not among them, where there are such: the smallest |
 //!
 //! and `time` (n) \[s\]. A section stands at p + R (x e₁ + u), with the pose p, R of the root. Displacements are kept apart from the pose
 //! so that small ones keep their digits: what changes with time is stored in single precision.

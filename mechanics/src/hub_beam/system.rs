@@ -217,7 +217,11 @@ impl<C: Coupling> HubBeam<C> {
             (Drive::Prescribed(_), Some(speed)) => {
                 HubKinematics { angle: speed * s.t, speed, acceleration: 0.0 }
             }
-            (Drive::Prescribed(motion), None) => self.recent.at(motion, s.time()),
+            // The inertia of a hub that sets off is a load too.
+            (Drive::Prescribed(motion), None) => {
+                let hub = self.recent.at(motion, s.time());
+                HubKinematics { acceleration: self.loads.part() * hub.acceleration, ..hub }
+            }
         };
         hub.angle += self.azimuth;
         hub
