@@ -133,12 +133,10 @@ impl Augmented {
         (self.plain, self.work) = (Some(matrix.clone()), Some(matrix.clone()));
     }
 
-    /// Keeps A before it is factored.
-    pub fn keep(&mut self, matrix: &Matrix) {
-        match &mut self.plain {
-            Some(plain) => plain.copy_from(matrix),
-            None => self.plain = Some(matrix.clone()),
-        }
+    /// Keeps A before it is factored: of a dense one the part of its first `order` unknowns, if rows have entries for those alone and the others couple to nothing.
+    pub fn keep(&mut self, matrix: &Matrix, order: usize) {
+        let plain = self.plain.get_or_insert_with(|| matrix.clone());
+        plain.copy_leading(matrix, order);
     }
 
     /// Whether problems with these laws are solved: every row is one of a contact.
@@ -550,7 +548,7 @@ mod tests {
         let along = |row: &[f64; 5]| row.iter().zip(free).map(|(g, x)| g * x).sum::<f64>();
         let b: Vec<f64> = rows.iter().map(along).collect();
         rows.iter().for_each(|row| many.push(row.iter().copied().enumerate()));
-        many.keep(&matrix);
+        many.keep(&matrix, 5);
         matrix.factor().unwrap();
         let (mut lambda, mut x) = (vec![0.0; 3 * n], vec![0.0; 5]);
         many.solve(&mut matrix, &b, &mut lambda, &mut x).unwrap();

@@ -28,6 +28,8 @@ pub(super) struct Impulses {
     images: Vec<f64>,
     /// For many rows, whose products have room in A.
     many: Option<Augmented>,
+    /// Unknowns before the multipliers of contacts, which couple to nothing in A.
+    leading: usize,
     few: Few,
 }
 
@@ -40,6 +42,7 @@ impl Impulses {
         let rows = if many { FEW } else { system.rows().len() };
         Impulses {
             many: many.then(Augmented::default),
+            leading: order.min(system.size().v + system.rows().len() - contacts),
             few: Few::new(rows),
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
@@ -58,7 +61,7 @@ impl Impulses {
     /// Keeps the matrix of an iteration before it is factored, if it may be needed.
     pub(super) fn keep(&mut self, matrix: &Matrix) {
         if let Some(many) = &mut self.many {
-            many.keep(matrix);
+            many.keep(matrix, self.leading);
         }
     }
 
