@@ -160,6 +160,21 @@ fn many_points_that_leave_next_to_at_once_are_few_events() {
     assert!((order - 2.0).abs() < 0.1 && (more / many - 1.0).abs() < 2e-3, "{few} {more} {many}: {order}");
 }
 
+/// A rod that falls flat on 49 points of an even mesh: every other one strikes as the rest open, and 1e-7 s later the other way round. An event costs what its contacts do, and
+/// 0.2 ms of them are too many.
+#[test]
+fn contacts_that_take_turns_chatter() {
+    let text = ROD
+        .replace("duration = 0.075", "duration = 0.0641")
+        .replace("elements = 20", "elements = 16")
+        .replace("points = 100", "points = 48")
+        .replace(", friction = 0.3", "")
+        .replace("kind = 'nonsmooth-generalized-alpha'\nstep = '0.2 ms'", "kind = 'radau'\ntolerance = 1e-5");
+    let run = integrate(&read(&text)).unwrap();
+    assert_eq!(run.failure, None);
+    assert!(run.warnings.iter().any(|warning| warning.contains("contacts chatter")), "{:?}", run.warnings);
+}
+
 /// Twelve rows with friction, six of which follow from the others: the box comes to rest on its face, bears its weight, m g, and has m g h/2 = 0.4905 J left.
 #[test]
 fn a_tilted_box_that_falls_on_its_corners_comes_to_rest() {

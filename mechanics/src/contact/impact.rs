@@ -464,7 +464,7 @@ impl ImpactMap {
                 }
             }
             if let Some(many) = &mut self.many {
-                many.keep(&self.matrix);
+                many.keep(&self.matrix, self.matrix.order());
             }
             match self.matrix.factor() {
                 Ok(_) => return Ok(()),

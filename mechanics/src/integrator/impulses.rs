@@ -28,7 +28,11 @@ pub(super) struct Impulses {
     images: Vec<f64>,
     /// For many rows, whose products have room in A.
     many: Option<Augmented>,
+    /// Unknowns before the multipliers of contacts, which couple to nothing in A.
+    leading: usize,
     few: Few,
+    /// What is left of the problem solved last where it has [not settled](Augmented::best), over its largest multiplier; else 0.
+    pub(super) residual: f64,
 }
 
 impl Impulses {
@@ -40,7 +44,9 @@ impl Impulses {
         let rows = if many { FEW } else { system.rows().len() };
         Impulses {
             many: many.then(Augmented::default),
+            leading: order.min(system.size().v + system.rows().len() - contacts),
             few: Few::new(rows),
+            residual: 0.0,
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
             w: Vec::with_capacity(rows * rows),
@@ -58,7 +64,7 @@ impl Impulses {
     /// Keeps the matrix of an iteration before it is factored, if it may be needed.
     pub(super) fn keep(&mut self, matrix: &Matrix) {
         if let Some(many) = &mut self.many {
-            many.keep(matrix);
+            many.keep(matrix, self.leading);
         }
     }
 
@@ -89,7 +95,7 @@ impl Impulses {
     }
 
     /// Solves for the multipliers `p` of the rows that take part and adds what their change does to the increment `x`;
-    /// `jacobian` are the stored ones, and `value` gives the value of a row before the increment.
+    /// `jacobian` are the stored ones, and `value` gives the value of a row before the increment. The `residual` tells whether they have settled.
     pub(super) fn solve(
         &mut self,
         matrix: &mut Matrix,
@@ -99,16 +105,15 @@ impl Impulses {
         x: &mut [f64],
     ) -> Result<(), Unresolved> {
         let (n, m) = (x.len(), self.rows.len());
+        self.residual = 0.0;
         if m == 0 {
             return Ok(());
         }
         let along = |row: usize, x: &[f64]| -> f64 {
             jacobian.of_row(row).iter().map(|&(_, j, entry)| entry * x[j]).sum()
         };
-        if m > FEW
-            && Augmented::solves(&self.laws)
-            && let Some(many) = &mut self.many
-        {
+        let tried = m > FEW && Augmented::solves(&self.laws);
+        if tried && let Some(many) = &mut self.many {
             many.begin(&self.laws);
             self.b.clear();
             self.solution.clear();
@@ -144,7 +149,12 @@ impl Impulses {
             let part = self.w[k * m..(k + 1) * m].iter().zip(&self.solution);
             self.b.push(value(row) + along(row, x) - part.map(|(w, p)| w * p).sum::<f64>());
         }
-        self.few.solve(&self.laws, &self.w, &self.b, &mut self.solution)?;
+        if let Err(unresolved) = self.few.solve(&self.laws, &self.w, &self.b, &mut self.solution) {
+            let best = self.many.as_ref().filter(|_| tried).and_then(Augmented::best);
+            let (best, residual) = best.ok_or(unresolved)?;
+            self.solution.copy_from_slice(best);
+            self.residual = residual;
+        }
         for (k, &row) in self.rows.iter().enumerate() {
             let change = self.solution[k] - p[row];
             p[row] = self.solution[k];

@@ -357,6 +357,16 @@ impl<T: Scalar> Matrix<T> {
         }
     }
 
+    /// Takes the rows and columns of the first `order` unknowns of another that is not factored, if that is dense; a band as a whole, in which those behind cost next to
+    /// nothing where they couple to nothing.
+    pub fn copy_leading(&mut self, other: &Matrix<T>, order: usize) {
+        debug_assert!(!other.factored, "the entries are overwritten by the factors");
+        match (self.begin(), &other.storage) {
+            (Storage::Dense(a), Storage::Dense(b)) => a.copy_leading(b, order),
+            _ => self.copy_from(other),
+        }
+    }
+
     /// Sets every entry to zero.
     pub fn clear(&mut self) {
         self.begin().clear();

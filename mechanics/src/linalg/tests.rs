@@ -385,3 +385,37 @@ fn border_unknowns_that_couple_to_nothing_are_their_diagonal_alone() {
     (0..3).for_each(|i| alone.add(i, i, 1.0));
     assert_eq!(alone.factor().unwrap_err().index, 3);
 }
+
+/// Unknowns at the end that couple to nothing change no bit of the others, and one between that does is no end.
+#[test]
+fn unknowns_of_a_dense_matrix_that_stand_alone_are_divided() {
+    let entry = |i: usize, j: usize| ((3 * i + 7 * j) % 11) as f64 - 4.0;
+    for coupled in [0, 3, 5] {
+        let (mut small, mut large) = (Dense::new(coupled), Dense::new(8));
+        for i in 0..coupled {
+            for j in 0..coupled {
+                small.set(i, j, entry(i, j));
+                large.set(i, j, entry(i, j));
+            }
+        }
+        (coupled..8).for_each(|i| large.set(i, i, 4.0));
+        small.factor().unwrap();
+        large.factor().unwrap();
+        let mut x: Vec<f64> = (0..8).map(|i| 1.0 / (1.0 + i as f64)).collect();
+        let mut y = x.clone();
+        small.solve(&mut x[..coupled]);
+        x[coupled..].iter_mut().for_each(|x| *x /= 4.0);
+        large.solve(&mut y);
+        assert_eq!(x, y);
+    }
+    // The last is nothing.
+    let mut singular = Dense::<f64>::new(2);
+    singular.set(0, 0, 1.0);
+    assert_eq!(singular.factor().unwrap_err().index, 1);
+    let mut last = Dense::<f64>::new(3);
+    [(0, 2), (2, 0), (1, 1)].into_iter().for_each(|(i, j)| last.set(i, j, 2.0));
+    last.factor().unwrap();
+    let mut x = [2.0, 4.0, 6.0];
+    last.solve(&mut x);
+    assert_eq!(x, [3.0, 2.0, 1.0]);
+}

@@ -2,8 +2,9 @@
 //!
 //! Contacts chatter where events follow each other so fast that the run would not come to its end.
 //!
-//! Counted are events that do not belong to the contact of the event before: bounces of one contact that accumulate come to an end by themselves. A block of
-//! them with few steps between is judged by what it leaves: as many events as the rest of the run would have at its rate.
+//! Counted are events in which other contacts take part than in the event before: bounces of one contact that accumulate come to an end by themselves, as do those of
+//! the corners of a box that strike together. A block of them with few steps between is judged by what it leaves: by as many contacts as the events of the rest of the run
+//! would strike at its rate, for each has its rows in the steps by which an event is located.
 
 use super::observer::{Event, EventKind};
 use crate::contact::Neglected;
@@ -13,8 +14,30 @@ use crate::system::{Set, System};
 const BLOCK: u32 = 40;
 /// Steps, over its events, up to which a block is one of events alone.
 const STEPS: u32 = 4;
-/// Events that the rest of a run may have.
+/// Contacts that the events of the rest of a run may strike.
 const MOST: f64 = 20_000.0;
+
+/// The contacts of an event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Together {
+    /// A number that other contacts do not have: that of a single one, a hash of several, below 2⁵³.
+    which: u64,
+    count: u32,
+}
+
+impl Together {
+    /// These contacts, if there are any.
+    pub(super) fn of(contacts: impl Iterator<Item = usize>) -> Option<Together> {
+        contacts.map(|i| i as u64).fold(None, |all, i| match all {
+            None => Some(Together { which: i, count: 1 }),
+            // Fowler, Noll & Vo's prime.
+            Some(Together { which, count }) => {
+                let hash = (which ^ (i << 20)).wrapping_mul(0x100_0000_01b3);
+                Some(Together { which: (hash ^ (hash >> 32)) & ((1 << 53) - 1), count: count + 1 })
+            }
+        })
+    }
+}
 
 /// The events of a block so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,43 +45,46 @@ pub(super) struct Chatter {
     events: u32,
     steps: u32,
     begin: f64,
-    contact: Option<usize>,
+    /// Contacts of the last event.
+    which: Option<u64>,
     /// Blocks that were found too fast.
     pub(super) fast: u32,
 }
 
 impl Chatter {
-    /// Counts a step that ends at `time`, with the contact of its event if it has one, and the time that is `left`. Gives the mean time between events where
+    /// Counts a step that ends at `time`, with the contacts of its event if it has one, and the time that is `left`. Gives the mean time between events where
     /// contacts chatter.
-    pub(super) fn count(&mut self, time: f64, event: Option<usize>, left: f64) -> Option<f64> {
+    pub(super) fn count(&mut self, time: f64, event: Option<Together>, left: f64) -> Option<f64> {
         self.steps += 1;
-        if event.is_some() && event != self.contact {
+        let which = event.map(|event| event.which);
+        if event.is_some() && which != self.which {
             self.events += 1;
-            self.contact = event;
+            self.which = which;
         }
         if self.steps > STEPS * BLOCK {
-            *self = Chatter { begin: time, contact: self.contact, fast: self.fast, ..Chatter::default() };
+            *self = Chatter { begin: time, which: self.which, fast: self.fast, ..Chatter::default() };
         }
         if self.events < BLOCK {
             return None;
         }
         let mean = (time - self.begin) / f64::from(self.events);
-        let chatters = left > MOST * mean;
+        let struck = event.map_or(1.0, |event| f64::from(event.count));
+        let chatters = struck * left > MOST * mean;
         let fast = self.fast + u32::from(chatters);
-        *self = Chatter { begin: time, contact: self.contact, fast, ..Chatter::default() };
+        *self = Chatter { begin: time, which: self.which, fast, ..Chatter::default() };
         chatters.then_some(mean)
     }
 
     /// What later steps depend on, as numbers.
     pub(super) fn memory(&self) -> [f64; 5] {
-        let contact = self.contact.map_or(-1.0, |contact| contact as f64);
-        [f64::from(self.events), f64::from(self.steps), self.begin, contact, f64::from(self.fast)]
+        let which = self.which.map_or(-1.0, |which| which as f64);
+        [f64::from(self.events), f64::from(self.steps), self.begin, which, f64::from(self.fast)]
     }
 
     /// From the [memory](Chatter::memory) of a run.
-    pub(super) fn recall([events, steps, begin, contact, fast]: [f64; 5]) -> Chatter {
-        let contact = (contact >= 0.0).then_some(contact as usize);
-        Chatter { events: events as u32, steps: steps as u32, begin, contact, fast: fast as u32 }
+    pub(super) fn recall([events, steps, begin, which, fast]: [f64; 5]) -> Chatter {
+        let which = (which >= 0.0).then_some(which as u64);
+        Chatter { events: events as u32, steps: steps as u32, begin, which, fast: fast as u32 }
     }
 }
 
@@ -158,14 +184,37 @@ impl Bursts {
 mod tests {
     use super::*;
 
+    /// Whether 500 events, of which the k-th is one of these contacts, chatter in a run of 1 s.
+    fn chatters<const N: usize>(mean: f64, of: impl Fn(usize) -> [usize; N]) -> bool {
+        let mut chatter = Chatter::default();
+        (1..500).any(|k| chatter.count(mean * k as f64, Together::of(of(k).into_iter()), 1.0).is_some())
+    }
+
     #[test]
     fn bounces_of_one_contact_are_no_chatter_and_those_of_two_in_turn_are() {
-        let chatters = |contacts: usize, mean: f64| {
-            let mut chatter = Chatter::default();
-            (1..500).any(|k| chatter.count(mean * f64::from(k), Some(k as usize % contacts), 1.0).is_some())
-        };
-        assert!(!chatters(1, 1e-7) && chatters(2, 1e-7));
+        assert!(!chatters(1e-7, |_| [3]) && chatters(1e-7, |k| [k % 2]));
         // They let the run come to its end.
-        assert!(!chatters(2, 1e-3));
+        assert!(!chatters(1e-3, |k| [k % 2]));
+    }
+
+    #[test]
+    fn contacts_that_strike_together_are_one_and_those_that_take_turns_with_others_chatter() {
+        assert!(!chatters(1e-7, |_| [0, 1, 2, 3]));
+        // The first of them takes part each time.
+        assert!(chatters(1e-7, |k| [0, 1 + k % 2, 5]));
+    }
+
+    #[test]
+    fn events_of_many_contacts_count_as_many() {
+        assert!(!chatters(1e-4, |k| [k % 2]));
+        assert!(chatters(1e-4, |k| [k % 2, 2, 3]));
+    }
+
+    #[test]
+    fn what_is_remembered_is_a_number_that_is_exact() {
+        let many = Together::of((0..400).step_by(3));
+        let mut chatter = Chatter::default();
+        chatter.count(0.0, many, 1.0);
+        assert_eq!(Chatter::recall(chatter.memory()), chatter);
     }
 }

@@ -1,6 +1,6 @@
 //! Contacts of a run: impacts, and which contacts are closed.
 
-use super::chatter::Chatter;
+use super::chatter::{Chatter, Together};
 use super::ending::RunError;
 use super::locate::{Locator, lowest};
 use super::{Event, EventKind};
@@ -35,12 +35,12 @@ pub(super) struct Contacts {
     rates: Vec<f64>,
     /// Events in a row with no time between them.
     events: usize,
-    /// How fast events of different contacts follow each other, and the contact of the last event.
+    /// How fast events of different contacts follow each other, and the contacts of the last event.
     pub(super) chatter: Chatter,
-    pub(super) last: Option<usize>,
+    pub(super) last: Option<Together>,
     /// The same of the indicators of the model and of continuous forces.
     pub(super) touches: Chatter,
-    pub(super) touched: Option<usize>,
+    pub(super) touched: Option<Together>,
     /// Whether the integrator resolves the contacts, so that only the model's own indicators are looked at.
     pub(super) resolved: bool,
 }
@@ -134,15 +134,18 @@ impl Contacts {
         self.neglected = Neglected { count: count as u64, time, gap, energy };
     }
 
-    /// Remembers the contact of an event: one that was open and strikes, or whose mode has changed.
+    /// Remembers the contacts of an event: those that were open and strike, or whose modes have changed.
     pub(super) fn remember(&mut self, sets: &[Set], before: &State, after: &State, impact: &Impact) {
         let normals = || (0..sets.len()).filter(|i| matches!(sets[*i], Set::Unilateral { .. }));
         let strikes = |i: &usize| before.mode[*i] == Mode::Open && impact.impulses[*i] != 0.0;
         let changes = |i: &usize| before.mode[*i] != after.mode[*i];
-        self.last = normals().find(strikes).or_else(|| normals().find(changes)).or_else(|| {
-            let changed = (0..sets.len()).find(|i| before.mode[*i] != after.mode[*i])?;
-            if let Set::Friction { normal, .. } = sets[changed] { Some(normal) } else { None }
-        });
+        let rubs = |i: usize| match sets[i] {
+            Set::Friction { normal, .. } => changes(&i).then_some(normal),
+            _ => None,
+        };
+        self.last = Together::of(normals().filter(strikes))
+            .or_else(|| Together::of(normals().filter(changes)))
+            .or_else(|| Together::of((0..sets.len()).filter_map(rubs)));
     }
 
     /// Counts the events that follow each other with no time between them.

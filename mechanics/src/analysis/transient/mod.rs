@@ -32,7 +32,7 @@ use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, RowWeights, Side, State, System};
 use adaptive::adapt;
 use breaks::{is_fixed, jump_at, next_break, stop};
-use chatter::Bursts;
+use chatter::{Bursts, Together};
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
 use segment::Segment;
 
@@ -300,6 +300,9 @@ impl Run {
             }
             observer.passing(system, &next);
             let rests = self.bursts.count(system, h, struck.as_ref());
+            if report.unsettled > 0.0 {
+                observer.unsettled(next.t, report.unsettled);
+            }
             if resolves {
                 if let Some(event) = struck {
                     observer.event(&event);
@@ -473,7 +476,7 @@ impl Run {
         {
             let fired = contacts.locator.fired();
             if !fired.is_empty() {
-                contacts.touched = fired.first().copied();
+                contacts.touched = Together::of(fired.iter().copied().take(1));
                 let crossing = system.cross(&fired, state);
                 happened.push(EventKind::Crossing { indicators: fired });
                 match crossing {
