@@ -17,28 +17,26 @@
 //! Where b lies beside the range of W the centre moves by the same amount in every proximal step, along multipliers that make no motion: the iteration ends with the motion.
 //!
 //! Without friction F is the gradient of a convex function; with Coulomb's it is not, and there may be no solution, or several: where the iteration does not settle
-//! with one ρ a softer one is tried. Where it settles with none, the best multipliers that were found are at hand, with their residual: what a force and the motion of its
-//! contact contradict each other by, |Λ − Π(Λ − u/Wᵢᵢ)|, over the largest force.
+//! with one ρ a softer one is tried.
 //!
 //! Sources: Alart & Curnier (1991, doi 10.1016/0045-7825(91)90022-X); Rockafellar (1976, doi 10.1287/moor.1.2.97) for the proximal point method.
 
 use super::cone::{RowLaw, Unresolved};
 use crate::linalg::Matrix;
 
-/// ρ of a row in units of its stiffness at the begin of an attempt, its bound, and the iterations allowed, one attempt after the other. With a large ρ contacts of a heap stick and
-/// slip, open and close, for ever: the last attempt has patience instead.
-const ATTEMPTS: [(f64, f64, usize); 4] =
-    [(30.0, 1e6, 80), (1.0, 1e6, 80), (1e3, 1e6, 80), (30.0, 300.0, 400)];
-/// Factor by which ρ grows where u settles slowly, for rows follow almost from each other.
+/// ρ of a row in units of its stiffness, one attempt after the other.
+const STIFFNESSES: [f64; 3] = [30.0, 1.0, 1e3];
+/// Factor by which ρ grows where u settles slowly, for rows follow almost from each other, and its bound.
 const STIFFER: f64 = 10.0;
+const STIFFEST: f64 = 1e6;
+/// Iterations of an attempt.
+const ITERATIONS: usize = 80;
 /// Halvings of the part of a step that is taken.
 const HALVINGS: usize = 30;
 /// Residual, over the largest multiplier, at which the iteration ends.
 const SETTLED: f64 = 1e-12;
 /// Residual that must be reached where it falls no further, or at the last iteration.
 const TOLERABLE: f64 = 1e-8;
-/// Residual up to which the best multipliers that were found [may be kept](Augmented::best).
-const KEPT: f64 = 1e-5;
 /// Part of the residual of a proximal step that may be left by the next while it still falls.
 const FALLING: f64 = 0.5;
 /// Residual that may be left where the motion is at rest: what of b no multipliers can take away.
@@ -97,9 +95,6 @@ pub struct Augmented {
     ratio: f64,
     plain: Option<Matrix>,
     work: Option<Matrix>,
-    /// The multipliers of the least residual so far, and that residual.
-    best: Vec<f64>,
-    least: f64,
     /// Newton's iterations, and the residual over the largest multiplier, of the problem solved last.
     pub iterations: usize,
     /// See [`Augmented::iterations`].
@@ -129,7 +124,6 @@ impl Augmented {
             turn: list(),
             projection: list(),
             of_normal: Vec::with_capacity(rows),
-            best: list(),
             ..Augmented::default()
         }
     }
@@ -217,9 +211,9 @@ impl Augmented {
         self.rates.clear();
         self.rates.extend_from_slice(b);
         self.measure();
-        (self.iterations, self.residual, self.least) = (0, f64::INFINITY, f64::INFINITY);
+        (self.iterations, self.residual) = (0, f64::INFINITY);
         let mut y = std::mem::take(&mut self.motion);
-        let settled = ATTEMPTS.into_iter().any(|how| self.attempt(factored, b, lambda, &mut y, how));
+        let settled = STIFFNESSES.iter().any(|ratio| self.attempt(factored, b, lambda, &mut y, *ratio));
         if settled {
             x.iter_mut().zip(&y).for_each(|(x, y)| *x += y);
         }
@@ -229,11 +223,6 @@ impl Augmented {
         }
         lambda.copy_from_slice(&self.start);
         Err(Unresolved { rows: self.laws.len(), sweeps: self.iterations, change: self.residual })
-    }
-
-    /// The best multipliers of a problem that was not solved, and their residual over the largest of them, if that is small.
-    pub fn best(&self) -> Option<(&[f64], f64)> {
-        (self.least <= KEPT).then_some((&self.best, self.least))
     }
 
     /// The stiffness of every contact.
@@ -264,7 +253,7 @@ impl Augmented {
         b: &[f64],
         lambda: &mut [f64],
         y: &mut [f64],
-        (ratio, stiffest, iterations): (f64, f64, usize),
+        ratio: f64,
     ) -> bool {
         y.fill(0.0);
         self.ratio = ratio;
@@ -273,7 +262,7 @@ impl Augmented {
         self.before.clear();
         self.rates_before.clear();
         let (mut last, mut last_moved) = (f64::INFINITY, f64::INFINITY);
-        for _ in 0..iterations {
+        for _ in 0..ITERATIONS {
             self.iterations += 1;
             self.rates_of(b, y);
             self.project(lambda);
@@ -286,7 +275,7 @@ impl Augmented {
                     return true;
                 }
                 if moved > FALLING * last_moved {
-                    self.ratio = (STIFFER * self.ratio).min(stiffest);
+                    self.ratio = (STIFFER * self.ratio).min(STIFFEST);
                 }
                 self.rates_before.clone_from(&self.rates);
                 (last, last_moved) = (self.residual, moved);
@@ -310,11 +299,6 @@ impl Augmented {
         factored.solve(y);
         self.rates_of(b, y);
         self.residual = self.judge(lambda);
-        if self.residual < self.least {
-            self.least = self.residual;
-            self.best.clear();
-            self.best.extend_from_slice(lambda);
-        }
     }
 
     /// u = b + G y
@@ -459,7 +443,9 @@ impl Augmented {
         self.work = Some(work);
         ok && y.iter().all(|y| y.is_finite())
     }
+}
 
+impl Augmented {
     /// The part of the step δ in `force` to take, from y with A y in `image`: all of it, or up to where δᵀF changes its sign, if it has grown by then. Without
     /// friction F is the gradient of a convex function that this part makes least along δ, so that the iteration cannot go to and fro.
     fn part(&mut self) -> f64 {

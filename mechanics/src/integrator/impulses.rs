@@ -31,8 +31,6 @@ pub(super) struct Impulses {
     /// Unknowns before the multipliers of contacts, which couple to nothing in A.
     leading: usize,
     few: Few,
-    /// What is left of the problem solved last where it has [not settled](Augmented::best), over its largest multiplier; else 0.
-    pub(super) residual: f64,
 }
 
 impl Impulses {
@@ -46,7 +44,6 @@ impl Impulses {
             many: many.then(Augmented::default),
             leading: order.min(system.size().v + system.rows().len() - contacts),
             few: Few::new(rows),
-            residual: 0.0,
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
             w: Vec::with_capacity(rows * rows),
@@ -95,7 +92,7 @@ impl Impulses {
     }
 
     /// Solves for the multipliers `p` of the rows that take part and adds what their change does to the increment `x`;
-    /// `jacobian` are the stored ones, and `value` gives the value of a row before the increment. The `residual` tells whether they have settled.
+    /// `jacobian` are the stored ones, and `value` gives the value of a row before the increment.
     pub(super) fn solve(
         &mut self,
         matrix: &mut Matrix,
@@ -105,15 +102,16 @@ impl Impulses {
         x: &mut [f64],
     ) -> Result<(), Unresolved> {
         let (n, m) = (x.len(), self.rows.len());
-        self.residual = 0.0;
         if m == 0 {
             return Ok(());
         }
         let along = |row: usize, x: &[f64]| -> f64 {
             jacobian.of_row(row).iter().map(|&(_, j, entry)| entry * x[j]).sum()
         };
-        let tried = m > FEW && Augmented::solves(&self.laws);
-        if tried && let Some(many) = &mut self.many {
+        if m > FEW
+            && Augmented::solves(&self.laws)
+            && let Some(many) = &mut self.many
+        {
             many.begin(&self.laws);
             self.b.clear();
             self.solution.clear();
@@ -149,12 +147,7 @@ impl Impulses {
             let part = self.w[k * m..(k + 1) * m].iter().zip(&self.solution);
             self.b.push(value(row) + along(row, x) - part.map(|(w, p)| w * p).sum::<f64>());
         }
-        if let Err(unresolved) = self.few.solve(&self.laws, &self.w, &self.b, &mut self.solution) {
-            let best = self.many.as_ref().filter(|_| tried).and_then(Augmented::best);
-            let (best, residual) = best.ok_or(unresolved)?;
-            self.solution.copy_from_slice(best);
-            self.residual = residual;
-        }
+        self.few.solve(&self.laws, &self.w, &self.b, &mut self.solution)?;
         for (k, &row) in self.rows.iter().enumerate() {
             let change = self.solution[k] - p[row];
             p[row] = self.solution[k];

@@ -239,8 +239,7 @@ impl Stepper for RadauSteps {
         if error <= 1.0 {
             self.good = self.good.max(h);
         }
-        let iterations = self.convergence.iterations();
-        Ok(StepReport { iterations, error: Some(error), worst, ..StepReport::default() })
+        Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error), worst })
     }
 
     fn accept(&mut self, from: &State, to: &State) {
