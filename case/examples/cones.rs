@@ -18,7 +18,8 @@ const LEAST: Duration = Duration::from_millis(200);
 fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(1).ok_or("cones PROBLEM.json")?;
     let problem: Value = serde_json::from_str(&std::fs::read_to_string(file)?)?;
-    let numbers = |value: &Value| -> Result<Vec<f64>, Box<dyn Error>> { Ok(serde_json::from_value(value.clone())?) };
+    let numbers =
+        |value: &Value| -> Result<Vec<f64>, Box<dyn Error>> { Ok(serde_json::from_value(value.clone())?) };
     let order = problem["order"].as_u64().ok_or("no order")? as usize;
     let entries: Vec<(usize, usize, f64)> = serde_json::from_value(problem["matrix"].clone())?;
     let rows: Vec<Vec<(usize, f64)>> = serde_json::from_value(problem["rows"].clone())?;
@@ -37,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut factored = plain.clone();
     factored.factor()?;
     let mut many = Augmented::default();
-    many.keep(&plain);
+    many.keep(&plain, order);
     let (mut count, began) = (0, Instant::now());
     let multipliers = loop {
         many.begin(&laws);
@@ -50,6 +51,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
     };
     let seconds = began.elapsed().as_secs_f64() / f64::from(count);
-    println!("{}", json!({ "multipliers": multipliers, "iterations": many.iterations, "residual": many.residual, "seconds": seconds }));
+    println!(
+        "{}",
+        json!({ "multipliers": multipliers, "iterations": many.iterations, "residual": many.residual, "seconds": seconds })
+    );
     Ok(())
 }

@@ -3,6 +3,8 @@
 #![allow(clippy::unwrap_used)] // in helpers of tests
 
 use super::verification::run::integrate;
+use flexion::contact::{Augmented, RowLaw};
+use flexion::linalg::{Matrix, Structure};
 use flexion_case::{Reading, Run, parse};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -198,4 +200,54 @@ fn a_tilted_box_that_falls_on_its_corners_comes_to_rest() {
     let energy: Vec<f64> = trajectory.values(trajectory.index("energy.total").unwrap()).collect();
     let gained = energy.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0_f64, f64::max);
     assert!(gained < 1e-9, "{gained:e}");
+}
+
+/// The cone problem of a step of twelve balls in a tube, 87 rows of rank 71, on which Newton's method goes to and fro: gradients settle it.
+#[test]
+fn a_heap_settles() {
+    let text = include_str!("../../benches/cones/problems/heap_87_rows_later.json");
+    let problem: serde_json::Value = serde_json::from_str(text).unwrap();
+    let order = problem["order"].as_u64().unwrap() as usize;
+    let mut matrix = Matrix::new(&Structure::dense(order));
+    let entries: Vec<(usize, usize, f64)> = serde_json::from_value(problem["matrix"].clone()).unwrap();
+    entries.iter().for_each(|(i, j, x)| matrix.add(*i, *j, *x));
+    let rows: Vec<Vec<(usize, f64)>> = serde_json::from_value(problem["rows"].clone()).unwrap();
+    let law = |law: &serde_json::Value| match law[1].as_f64() {
+        None => RowLaw::Unilateral,
+        Some(coefficient) => RowLaw::Friction { coefficient, normal: law[2].as_u64().unwrap() as usize },
+    };
+    let laws: Vec<RowLaw> = problem["laws"].as_array().unwrap().iter().map(law).collect();
+    let [b, mut forces] = ["b", "start"].map(|name| {
+        let list: Vec<f64> = serde_json::from_value(problem[name].clone()).unwrap();
+        list
+    });
+    let mut many = Augmented::default();
+    many.keep(&matrix, order);
+    matrix.factor().unwrap();
+    many.begin(&laws);
+    rows.iter().for_each(|row| many.push(row.iter().copied()));
+    let mut y = vec![0.0; order];
+    many.solve(&mut matrix, &b, &mut forces, &mut y).unwrap();
+    let largest = forces.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    for (i, law) in laws.iter().enumerate() {
+        if *law != RowLaw::Unilateral {
+            continue;
+        }
+        let rate = |i: usize| b[i] + rows[i].iter().map(|(j, g)| g * y[*j]).sum::<f64>();
+        let friction: Vec<usize> = (0..laws.len())
+            .filter(|k| matches!(laws[*k], RowLaw::Friction { normal, .. } if normal == i))
+            .collect();
+        let (slides, holds) = (size(&friction, &rate), size(&friction, &|k| forces[k]));
+        // Rates are of 1e-2 m/s, forces of some 1e-3 N s.
+        assert!(forces[i] >= 0.0 && rate(i) > -1e-9 && forces[i] * rate(i).abs() < 1e-9 * largest);
+        assert!(holds <= 0.3 * forces[i] * (1.0 + 1e-9));
+        if slides > 1e-8 && forces[i] > 1e-6 * largest {
+            assert!(holds > 0.3 * forces[i] * (1.0 - 1e-4), "{i}: {slides} {holds} {}", forces[i]);
+        }
+    }
+}
+
+/// The size of the vector of these rows.
+fn size(rows: &[usize], of: &dyn Fn(usize) -> f64) -> f64 {
+    rows.iter().map(|i| of(*i)).fold(0.0, f64::hypot)
 }

@@ -287,7 +287,12 @@ fn the_inertia_of_a_hub_that_sets_off_is_a_load() {
         for point in &path.points {
             let of = |name: &str| point.values[column(name)];
             assert!((of("hub.acceleration") - 0.01 * point.factor).abs() < 1e-17);
-            assert!((of("hub.torque") - 4.0 * point.factor).abs() < 1e-5, "{coupling} {}: {}", point.factor, of("hub.torque"));
+            assert!(
+                (of("hub.torque") - 4.0 * point.factor).abs() < 1e-5,
+                "{coupling} {}: {}",
+                point.factor,
+                of("hub.torque")
+            );
         }
     }
 }

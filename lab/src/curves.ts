@@ -64,6 +64,10 @@ export const axis = (): uPlot.Axis => ({
   values: (_, splits) => labels(splits),
 });
 
+/** The width of an axis: so much, or what its longest label takes. */
+export const wide = (least: number) => (_: uPlot, values: string[] | null) =>
+  Math.max(least, 14 + 6.5 * Math.max(0, ...(values ?? []).map((value) => value?.length ?? 0)));
+
 /** Keeps a plot as wide as its node, and in the colours of the page. */
 export function sized(node: HTMLElement, plot: uPlot, height: number, signal: AbortSignal) {
   const observer = new ResizeObserver(() => {
@@ -129,7 +133,7 @@ export class Panel {
       height: HEIGHT,
       axes: [
         { ...axis(), size: 22 },
-        { ...axis(), size: 62, space: 28 },
+        { ...axis(), size: wide(62), space: 28 },
       ],
       series: [{}],
       bands: [],

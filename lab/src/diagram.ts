@@ -1,7 +1,7 @@
 // The Campbell diagram: frequencies over the speed of rotation; a click chooses the speed.
 import uPlot from "uplot";
 import { styled } from "./colours";
-import { axis, plain, sized, tag } from "./curves";
+import { axis, plain, sized, tag, wide } from "./curves";
 import { array, type Stored } from "./data";
 import type { Reply } from "./engine";
 import type { Room } from "./room";
@@ -50,7 +50,7 @@ export function diagram(found: Campbell, room: Room, speed: number | undefined, 
     scales: { x: { time: false }, y: { range: () => [0, most] } },
     axes: [
       { ...axis(), size: 34, label: `speed [${found["speed-unit"]}]`, labelSize: 14, labelFont: "11px system-ui, sans-serif" },
-      { ...axis(), size: 58, space: 28, label: `frequency [${found.unit}]`, labelSize: 14, labelFont: "11px system-ui, sans-serif" },
+      { ...axis(), size: wide(58), space: 28, label: `frequency [${found.unit}]`, labelSize: 14, labelFont: "11px system-ui, sans-serif" },
     ],
     series: [
       {},

@@ -1,7 +1,7 @@
 // Curves of a run that is not done yet.
 import uPlot from "uplot";
 import { styled } from "./colours";
-import { axis, plain, tag } from "./curves";
+import { axis, plain, tag, wide } from "./curves";
 import { array, type Stored } from "./data";
 
 /** Columns that are drawn. */
@@ -71,7 +71,7 @@ export class Growing {
       height: HEIGHT,
       axes: [
         { ...axis(), size: 22 },
-        { ...axis(), size: 62 },
+        { ...axis(), size: wide(62) },
       ],
       series: [{}, { stroke: () => styled("curve0"), width: 1.5, pxAlign: 0, points: { show: false } }],
     };

@@ -108,7 +108,7 @@ const asked = (): Asked => ({
 });
 
 /** A largest speed, if it is one. */
-const largest = (most?: string) => ((quantity(most ?? "")?.number ?? 0) > 0 ? most : undefined);
+const largest = (most?: string, { number: of } = quantity(most ?? "") ?? { number: 0 }) => (of > 0 && of < Infinity ? most : undefined);
 
 /** Speeds of the Campbell diagram: from rest to what is chosen, or half as much again as the speed of the case. */
 function range(): string | undefined {
@@ -526,7 +526,8 @@ const saves: Record<string, () => Promise<void>> = {
   film: async () => {
     if (!answer.motion || !save.films()) throw new Error("There is no motion that this browser can film.");
     tell("The motion is filmed once from start to end.");
-    save.download(await save.film(room, answer.motion, room.signal), `${file()}.webm`);
+    const name = `${file()}.webm`;
+    save.download(await save.film(room, answer.motion, room.signal), name);
     tell("The film is saved.");
   },
   files: async () => {

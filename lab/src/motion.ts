@@ -304,12 +304,16 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
     if (!fitted) fit();
     draw(player?.time ?? start);
   };
-  button(room, "Fit", "f", fit);
+  const fitAgain = () => {
+    fit();
+    draw(player!.time);
+  };
+  button(room, "Fit", "f", fitAgain);
   if (!planar) {
     const views: [string, View][] = [["space", "space"], ["x, y", "xy"], ["x, z", "xz"], ["y, z", "yz"]];
     choice<View>(room, "View", views, "space", (view) => {
       stage.turn(view);
-      fit();
+      fitAgain();
     });
   }
   const named = parts[0].beam?.hub === undefined ? `Frame of ${parts[0].name}` : "Rotating frame";
@@ -343,17 +347,23 @@ export function motion(results: Results, room: Room, kept?: Kept, other?: Result
   player = new Player(room, times, (time) => `${steady(time)} s`, show, speed(last - start), kept);
   let fitted = kept?.seen !== undefined && stage.look(kept.seen);
   const resized = () => {
-    if (fitted) draw(player!.time);
-    else fit();
+    if (!fitted) fit();
     fitted = true;
+    draw(player!.time);
   };
   room.canvas.addEventListener("resized", resized, { signal: room.signal });
+  // Heads of arrows lie across the line of sight.
+  const turned = (event: Event) => {
+    event.preventDefault();
+    draw(player!.time);
+  };
+  room.canvas.addEventListener("turned", turned, { signal: room.signal });
   // What is in sight is fitted and drawn when the canvas has its size.
   trace();
   note();
   player.seek(player.time);
   return {
-    kept: () => ({ ...player!.kept, factor, rotating, path, transmitted, seen: stage.seen, shown: curves.shown }),
+    kept: () => ({ ...player!.kept, factor, rotating, path, transmitted, seen: fitted ? stage.seen : kept?.seen, shown: curves.shown }),
     seek: (share) => player!.seek(start + share * (last - start)),
     play: (on) => player!.play(on),
     seconds: player.seconds,

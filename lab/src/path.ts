@@ -3,7 +3,7 @@ import { tag } from "./curves";
 import { array, type Stored } from "./data";
 import type { Reply } from "./engine";
 import { stated } from "./table";
-import { text, ticks } from "./text";
+import { labels, text, ticks } from "./text";
 
 /** A path with its columns. */
 interface Path {
@@ -41,8 +41,9 @@ function shape(name: string, attributes: Record<string, string | number>, words 
 /** Diagrams of the principal columns, unstable parts dashed, and the values at the end. */
 export function path(reply: Reply): HTMLElement {
   const of = found(reply);
-  // What does not move says nothing.
-  const moving = of.columns.filter(({ values }) => Math.max(...values) - Math.min(...values) > 0);
+  // What does not move, but for rounding, says nothing.
+  const size = (values: Float64Array) => Math.max(...values.map(Math.abs));
+  const moving = of.columns.filter(({ values }) => Math.max(...values) - Math.min(...values) > 1e-12 * size(values));
   const drawn = moving.slice(0, 4).map((column) => one(column, of));
   const listed = of.critical.map(({ index, name }) => tag("li", {}, `${name} at load factor ${text(of.factors[index], 6)}`));
   const note = "The load factor multiplies all loads. Dashed: the equilibrium is not stable.";
@@ -70,9 +71,10 @@ function one({ name, unit, values: across }: Path["columns"][number], { factors,
   const y = (value: number) => HEIGHT - BELOW - ((HEIGHT - BELOW - ABOVE) * (value - y0)) / (y1 - y0);
   const label = `Load factor over ${name}`;
   const svg = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "img", "aria-label": label, class: "path" });
-  for (const value of ticks(x0, x1)) {
+  const below = labels(ticks(x0, x1));
+  for (const [k, value] of ticks(x0, x1).entries()) {
     svg.append(shape("line", { x1: x(value), x2: x(value), y1: ABOVE, y2: HEIGHT - BELOW, class: "grid" }));
-    svg.append(shape("text", { x: x(value), y: HEIGHT - BELOW + 14, "text-anchor": "middle" }, text(value, 3)));
+    svg.append(shape("text", { x: x(value), y: HEIGHT - BELOW + 14, "text-anchor": "middle" }, below[k]));
   }
   for (const value of ticks(y0, y1)) {
     svg.append(shape("line", { x1: LEFT, x2: WIDTH - 8, y1: y(value), y2: y(value), class: "grid" }));

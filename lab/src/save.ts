@@ -27,7 +27,8 @@ export async function copy(text: string, what: string) {
 }
 
 /** The picture on the colour of the page. */
-export function picture({ canvas }: Room): Promise<Blob> {
+export async function picture({ canvas, stage }: Room): Promise<Blob> {
+  if (stage.hidden) throw new Error("There is no picture here: print the page, or save all files.");
   const copy = Object.assign(document.createElement("canvas"), { width: canvas.width, height: canvas.height });
   const context = copy.getContext("2d")!;
   context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
@@ -62,10 +63,10 @@ export async function film({ canvas }: Room, drawn: Drawn, signal: AbortSignal):
   recorder.start();
   const seconds = Math.min(Math.max(drawn.seconds, 1), 30);
   const start = performance.now();
-  await new Promise<void>((resolve) => {
+  await new Promise<void>((resolve, reject) => {
     const next = () => {
       const share = (performance.now() - start) / 1000 / seconds;
-      if (signal.aborted) return resolve();
+      if (signal.aborted) return reject(new Error("The film has ended early: another answer took its place."));
       drawn.seek(Math.min(share, 1));
       copy();
       if (share >= 1) resolve();

@@ -52,6 +52,9 @@ const colour = (name: string) => new THREE.Color(styled(name));
 /** One renderer a canvas: browsers allow few of them. */
 const renderers = new WeakMap<HTMLCanvasElement, THREE.WebGLRenderer>();
 
+/** Canvases that have shown a picture. */
+const used = new WeakSet<HTMLCanvasElement>();
+
 /** None where the browser has no WebGL. */
 function renderer(canvas: HTMLCanvasElement): THREE.WebGLRenderer | undefined {
   if (renderers.has(canvas)) return renderers.get(canvas);
@@ -254,14 +257,15 @@ export class Stage {
   private scale: string[] = [];
   /** The camera is moved, and a picture follows. */
   private moving = false;
-  /** What stands beside the first picture is painted first: its shaders take as long as all the rest. */
-  private waiting = true;
+  /** What stands beside the first picture of a canvas is painted first: its shaders take as long as all the rest. */
+  private waiting: boolean;
   private readonly canvas: HTMLCanvasElement;
   private readonly bar: HTMLElement;
 
   constructor({ canvas, scale, signal }: Room, scene: Scene) {
     [this.canvas, this.bar] = [canvas, scale];
     this.renderer = renderer(canvas);
+    this.waiting = !used.has(canvas);
     const length = ({ beam, box }: Part) =>
       beam ? (beam.hub ?? 0) + beam.stations[beam.stations.length - 1] : Math.max(...box!.slice(3));
     this.size = Math.max(...scene.parts.map(length));
@@ -295,11 +299,12 @@ export class Stage {
       this.controls.mouseButtons.LEFT = THREE.MOUSE.PAN;
       this.controls.touches.ONE = THREE.TOUCH.PAN;
     }
-    this.controls.addEventListener("change", () => this.moving || this.render());
+    this.controls.addEventListener("change", () => this.moving || this.looked());
     const observer = new ResizeObserver(() => this.waiting || this.resize());
     observer.observe(canvas.parentElement!);
     recoloured(() => {
       this.paint();
+      this.begin();
       this.render();
       // Chromium prints the picture as it was when it was last read.
       canvas.toDataURL();
@@ -318,11 +323,20 @@ export class Stage {
     });
     this.paint();
     this.turn(scene.planar ? "xy" : "space");
-    const first = () => {
-      this.waiting = false;
-      if (!signal.aborted) this.resize();
-    };
-    requestAnimationFrame(() => requestAnimationFrame(first));
+    if (this.waiting) requestAnimationFrame(() => requestAnimationFrame(() => signal.aborted || this.begin()));
+  }
+
+  /** The first picture waits no longer. */
+  private begin() {
+    used.add(this.canvas);
+    if (!this.waiting) return;
+    this.waiting = false;
+    this.resize();
+  }
+
+  /** Draws from where the user looks, if nobody else does. */
+  private looked() {
+    if (this.canvas.dispatchEvent(new Event("turned", { cancelable: true }))) this.render();
   }
 
   /** Looks from a side. */

@@ -46,6 +46,17 @@ pub(super) fn single(values: &[f64]) -> Value {
     encoded("f4", values.iter().map(|x| (*x as f32).to_le_bytes()))
 }
 
+/// Least range of a curve in single precision, over its largest value: of a smaller one the steps of that precision would be seen.
+const SEEN: f64 = 1e-3;
+
+/// Values of a curve, in single precision where that is seen nowhere.
+pub(super) fn curve(values: &[f64]) -> Value {
+    let finite = || values.iter().copied().filter(|x| x.is_finite());
+    let range = finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min);
+    let largest = finite().fold(0.0_f64, |most, x| most.max(x.abs()));
+    if range > 0.0 && range < SEEN * largest { double(values) } else { single(values) }
+}
+
 /// Values in double precision.
 pub(super) fn double(values: &[f64]) -> Value {
     encoded("f8", values.iter().map(|x| x.to_le_bytes()))
@@ -55,4 +66,18 @@ pub(super) fn double(values: &[f64]) -> Value {
 fn encoded<const N: usize>(kind: &str, numbers: impl Iterator<Item = [u8; N]>) -> Value {
     let bytes: Vec<u8> = numbers.flatten().collect();
     format!("{kind}:{}", STANDARD.encode(bytes)).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{curve, double, single};
+
+    #[test]
+    fn a_curve_that_hardly_varies_keeps_its_digits() {
+        let small = [4.0, 4.0 + 1e-7];
+        assert_eq!(curve(&small), double(&small));
+        for values in [[4.0, 5.0], [4.0, 4.0], [0.0, 1e-7], [f64::NAN, 4.0]] {
+            assert_eq!(curve(&values), single(&values));
+        }
+    }
 }

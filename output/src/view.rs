@@ -1,6 +1,6 @@
 //! Results as a page plays them: JSON, with arrays in base64.
 
-use super::arrays::{double, single};
+use super::arrays::{curve, double, single};
 use super::columns::shown_columns;
 use super::{ResultsError, Trajectory, VERSION, select};
 use serde_json::{Map, Value, json};
@@ -34,7 +34,7 @@ pub fn view_run(
         let values: Vec<f64> = trajectory.values(i).collect();
         let mut column = json!({
             "name": c.name, "unit": c.unit, "shown": shown.contains(&c.name.as_str()),
-            "values": single(&thinned(&values, true)),
+            "values": curve(&thinned(&values, true)),
         });
         if let Some(error) = error(i) {
             column["error"] = single(&thinned(&error, true));

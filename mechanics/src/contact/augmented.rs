@@ -17,9 +17,11 @@
 //! Where b lies beside the range of W the centre moves by the same amount in every proximal step, along multipliers that make no motion: the iteration ends with the motion.
 //!
 //! Without friction F is the gradient of a convex function; with Coulomb's it is not, and there may be no solution, or several: where the iteration does not settle
-//! with one ρ a softer one is tried.
+//! with one ρ, gradients are followed (`augmented/gradients.rs`), and then others are tried.
 //!
 //! Sources: Alart & Curnier (1991, doi 10.1016/0045-7825(91)90022-X); Rockafellar (1976, doi 10.1287/moor.1.2.97) for the proximal point method.
+
+mod gradients;
 
 use super::cone::{RowLaw, Unresolved};
 use crate::linalg::Matrix;
@@ -49,6 +51,12 @@ struct Group {
     friction: [usize; 2],
     /// Rows of friction.
     count: usize,
+}
+
+impl Group {
+    fn rows(&self) -> impl Iterator<Item = usize> + '_ {
+        std::iter::once(self.normal).chain(self.friction[..self.count].iter().copied())
+    }
 }
 
 /// What a contact does at the argument of its projection.
@@ -89,6 +97,9 @@ pub struct Augmented {
     projection: Vec<f64>,
     /// G δ of a step.
     turn: Vec<f64>,
+    /// Multipliers of the gradients' steps.
+    ahead: Vec<f64>,
+    next: Vec<f64>,
     /// The contact of each normal row.
     of_normal: Vec<usize>,
     /// ρ of the attempt in units of the stiffness.
@@ -123,6 +134,8 @@ impl Augmented {
             motion: of_order(),
             turn: list(),
             projection: list(),
+            ahead: list(),
+            next: list(),
             of_normal: Vec::with_capacity(rows),
             ..Augmented::default()
         }
@@ -213,7 +226,10 @@ impl Augmented {
         self.measure();
         (self.iterations, self.residual) = (0, f64::INFINITY);
         let mut y = std::mem::take(&mut self.motion);
-        let settled = STIFFNESSES.iter().any(|ratio| self.attempt(factored, b, lambda, &mut y, *ratio));
+        let [first, others @ ..] = STIFFNESSES;
+        let settled = self.attempt(factored, b, lambda, &mut y, first)
+            || self.descend(factored, b, lambda, &mut y)
+            || others.into_iter().any(|ratio| self.attempt(factored, b, lambda, &mut y, ratio));
         if settled {
             x.iter_mut().zip(&y).for_each(|(x, y)| *x += y);
         }
@@ -345,7 +361,7 @@ impl Augmented {
         let largest = lambda.iter().fold(f64::MIN_POSITIVE, |most, x| most.max(x.abs()));
         let mut moved = 0.0_f64;
         for (group, stiffness) in self.groups.iter().zip(&self.stiffness) {
-            for i in std::iter::once(group.normal).chain(group.friction[..group.count].iter().copied()) {
+            for i in group.rows() {
                 let change = self.rates[i] - self.rates_before[i];
                 moved = moved.max(change.abs() * stiffness[usize::from(i != group.normal)]);
             }
@@ -375,7 +391,7 @@ impl Augmented {
         for (group, stiffness) in self.groups.iter().zip(&self.stiffness) {
             let z = |i: usize| lambda[i] - stiffness[usize::from(i != group.normal)] * self.rates[i];
             projected(group, &self.laws, z, &mut projection);
-            for i in std::iter::once(group.normal).chain(group.friction[..group.count].iter().copied()) {
+            for i in group.rows() {
                 largest = largest.max(lambda[i].abs());
                 let off = (lambda[i] - projection[i]).abs();
                 worst = if off.is_nan() { f64::INFINITY } else { worst.max(off) };
