@@ -263,4 +263,56 @@ export const standing = ({ lab, slide, edit, fragment }) => ({
     await page.waitForFunction(() => /speeds ascend/.test(document.querySelector("#state").textContent));
     assert.doesNotMatch(await page.textContent("#state"), /\d{25}/);
   },
+
+  async "labels of axes are whole"(page) {
+    await page.addInitScript(() => {
+      window.cut = [];
+      const draw = CanvasRenderingContext2D.prototype.fillText;
+      CanvasRenderingContext2D.prototype.fillText = function (words, x, ...more) {
+        if (this.textAlign === "right" && x < this.measureText(words).width) window.cut.push(words);
+        return draw.call(this, words, x, ...more);
+      };
+    });
+    await page.goto(`${lab}#case=initial_static`);
+    await answered(page);
+    assert.deepEqual(await page.evaluate(() => window.cut), []);
+    // They tell the values apart.
+    await page.goto(`${lab}#case=initial_static&do=statics`);
+    await answered(page);
+    const figures = await page.$$eval("svg.path", (all) => all.map((svg) => [...svg.querySelectorAll("text[text-anchor=middle]:not(.name)")].map((text) => text.textContent)));
+    assert.ok(figures.length >= 3 && figures.every((labels) => new Set(labels).size === labels.length), JSON.stringify(figures));
+  },
+
+  async "the first picture is that of its time"(page) {
+    await page.emulateMedia({ reducedMotion: "reduce" });
+    for (const name of ["contact_hill", "roll_up"]) {
+      await page.goto("about:blank");
+      await page.goto(`${lab}#case=${name}`);
+      await answered(page);
+      await page.waitForTimeout(300);
+      const seen = () => page.$eval("#stage canvas", (canvas) => canvas.toDataURL());
+      const first = await seen();
+      await page.$eval("#scrubber", (scrubber) => scrubber.dispatchEvent(new Event("input")));
+      assert.equal(await seen(), first, name);
+    }
+    await page.emulateMedia({ reducedMotion: null });
+  },
+
+  async "what is no picture or no film is not saved"(page) {
+    await page.goto(`${lab}#case=initial_static&do=statics`);
+    await answered(page);
+    const said = async (what) => {
+      await page.click("#save summary");
+      await page.click(`[data-save=${what}]`);
+      await page.waitForSelector("#said.on");
+      return page.textContent("#said");
+    };
+    assert.match(await said("picture"), /no picture/);
+    await page.goto(`${lab}#case=contact_hill`);
+    await answered(page);
+    await said("film");
+    await page.waitForTimeout(500);
+    await page.evaluate(() => (location.hash = "#case=p1_spin_up_4"));
+    await page.waitForFunction(() => document.querySelector("#said").textContent.includes("ended early"));
+  },
 });
