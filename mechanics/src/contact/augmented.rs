@@ -310,10 +310,7 @@ impl Augmented {
 
     /// The motion y that multipliers make, and the residual of both.
     fn move_by(&mut self, factored: &mut Matrix, b: &[f64], lambda: &[f64], y: &mut [f64]) {
-        self.put_force(lambda);
-        y.copy_from_slice(&self.force);
-        factored.solve(y);
-        self.rates_of(b, y);
+        self.rates_by(factored, b, lambda, y);
         self.residual = self.judge(lambda);
     }
 

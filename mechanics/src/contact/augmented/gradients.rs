@@ -8,12 +8,13 @@
 //!
 //! with the projection Π on the cones, the stiffness s of each contact, and λ the largest eigenvalue of s W, by its powers. Where Λ goes against the last step, t begins at 1
 //! anew. A step costs a solution with the factors of A and O(1) for each row. It takes some hundreds to thousands, and contacts that stick and slip by turns do not disturb it: the
-//! problems of a heap on which Newton's method goes to and fro for ever end so. Of redundant contacts it finds the motion, and of their multipliers some, not those of least norm.
+//! problems of a heap on which Newton's method goes to and fro for ever end so. Where b lies beside the range of W there is no Λ, and the residual falls no further: up to 1e-5 of
+//! the largest multiplier may then be left. Of redundant contacts it finds the motion, and of their multipliers some, not those of least norm.
 //!
 //! Sources: Beck & Teboulle (2009, doi 10.1137/080716542), O'Donoghue & Candès (2015, doi 10.1007/s10208-013-9150-3) for beginning anew; de Saxcé & Feng
 //! (1998, doi 10.1016/S0895-7177(98)00119-8) for the cones.
 
-use super::{Augmented, Group, TOLERABLE};
+use super::{Augmented, BESIDE, FALLING, Group};
 use crate::contact::RowLaw;
 use crate::linalg::Matrix;
 
@@ -22,6 +23,8 @@ const STEPS: u32 = 10_000;
 /// Steps between two looks at the residual, and the residual at which they end.
 const LOOK: u32 = 25;
 const CLOSE: f64 = 1e-11;
+/// Steps in which the residual falls, or else it falls no further.
+const PATIENCE: u32 = 1500;
 /// Powers that λ takes, and a bound over what they give.
 const POWERS: u32 = 40;
 const SLACK: f64 = 1.05;
@@ -46,7 +49,7 @@ impl Augmented {
         let length = 1.0 / self.largest(factored, &mut next, y);
         self.onto_cones(&mut ahead);
         lambda.copy_from_slice(&ahead);
-        let (mut t, mut settled) = (1.0_f64, false);
+        let (mut t, mut least, mut fell) = (1.0_f64, f64::INFINITY, 0);
         for step in 1..=STEPS {
             self.rates_by(factored, b, &ahead, y);
             next.copy_from_slice(&ahead);
@@ -73,18 +76,21 @@ impl Augmented {
             if step % LOOK == 0 {
                 self.iterations += LOOK as usize;
                 self.move_by(factored, b, lambda, y);
-                settled = self.residual <= CLOSE;
-                if settled || !self.residual.is_finite() {
+                if self.residual < FALLING * least {
+                    (least, fell) = (self.residual, step);
+                }
+                let at_rest = self.residual <= BESIDE && step - fell >= PATIENCE;
+                if self.residual <= CLOSE || at_rest || !self.residual.is_finite() {
                     break;
                 }
             }
         }
         (self.ahead, self.next) = (ahead, next);
-        settled || self.residual <= TOLERABLE
+        self.residual <= BESIDE
     }
 
     /// u = b + G A⁻¹ Gᵀ (Λ − Λ₀), by way of y.
-    fn rates_by(&mut self, factored: &mut Matrix, b: &[f64], lambda: &[f64], y: &mut [f64]) {
+    pub(super) fn rates_by(&mut self, factored: &mut Matrix, b: &[f64], lambda: &[f64], y: &mut [f64]) {
         self.put_force(lambda);
         y.copy_from_slice(&self.force);
         factored.solve(y);
