@@ -53,20 +53,26 @@ function ranged(_: uPlot, low: number | null, high: number | null): [number, num
   return [middle - about, middle + about];
 }
 
+const FONT = "11px system-ui, sans-serif";
+
 export const axis = (): uPlot.Axis => ({
   stroke: () => styled("dim"),
   grid: { stroke: () => styled("grid"), width: 1 },
   ticks: { show: false },
-  font: "11px system-ui, sans-serif",
+  font: FONT,
   gap: 4,
   // uPlot's own never end where steps are smaller than 1e-16.
   splits: (plot, i, low, high) => ticks(low, high, Math.max(i === 0 ? plot.width / 55 : plot.height / 24, 2)),
   values: (_, splits) => labels(splits),
 });
 
+const measure = document.createElement("canvas").getContext("2d")!;
+
 /** The width of an axis: so much, or what its longest label takes. */
-export const wide = (least: number) => (_: uPlot, values: string[] | null) =>
-  Math.max(least, 14 + 6.5 * Math.max(0, ...(values ?? []).map((value) => value?.length ?? 0)));
+export const wide = (least: number) => (_: uPlot, values: string[] | null) => {
+  measure.font = FONT;
+  return Math.max(least, 14 + Math.max(0, ...(values ?? []).map((value) => measure.measureText(value ?? "").width)));
+};
 
 /** Keeps a plot as wide as its node, and in the colours of the page. */
 export function sized(node: HTMLElement, plot: uPlot, height: number, signal: AbortSignal) {

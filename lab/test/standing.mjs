@@ -77,7 +77,9 @@ export const standing = ({ lab, slide, edit, fragment }) => ({
     assert.equal(await page.textContent("#curves h2"), "Modes at 6.28 rad/s");
     assert.ok(Math.abs((await page.getAttribute(".campbell .u-over", "aria-valuenow")) - 2 * Math.PI) < 1e-3);
     assert.match(await copied(page, "python"), /case\.campbell\(\[f"\{20 \* k \/ 30\} rad\/s" for k in range\(31\)\]\)/);
-    const picture = () => page.$eval(".campbell canvas", (canvas) => canvas.toDataURL());
+    // As wide as its place, which it becomes in the frame behind its answer.
+    const sized = () => page.waitForFunction(() => Math.abs(document.querySelector(".campbell canvas").clientWidth - document.querySelector(".campbell").clientWidth) < 2);
+    const picture = () => sized().then(() => page.$eval(".campbell canvas", (canvas) => canvas.toDataURL()));
     await edit(page, "70 GPa", "7 GPa");
     await page.waitForTimeout(300);
     await answered(page);
@@ -289,6 +291,8 @@ export const standing = ({ lab, slide, edit, fragment }) => ({
       await page.goto("about:blank");
       await page.goto(`${lab}#case=${name}`);
       await answered(page);
+      // Two frames behind its curves.
+      await page.waitForFunction(() => document.querySelector("#scale").textContent !== "");
       await page.waitForTimeout(300);
       const seen = () => page.$eval("#stage canvas", (canvas) => canvas.toDataURL());
       const first = await seen();
