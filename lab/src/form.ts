@@ -16,6 +16,12 @@ export function quantity(value: string): { number: number; unit: string } | unde
   return found ? { number: Number(found[1]), unit: found[2] ?? "" } : undefined;
 }
 
+/** A largest speed, if it is one. */
+export function largest(most?: string): string | undefined {
+  const number = quantity(most ?? "")?.number ?? 0;
+  return number > 0 && Number.isFinite(number) ? most : undefined;
+}
+
 /** A value as it stands in the case, or with its unit in SI; without the quotes of a text. */
 export function written({ written, value, unit, number }: Entry): string {
   const plain = (written ?? value).trim().replace(/^("""|'''|""|''|"|')\r?\n?(.*)\1$/s, "$2");

@@ -8,7 +8,7 @@ import { tag } from "./curves";
 import { Computer, MAKING, type Asked } from "./computer";
 import { campbell } from "./diagram";
 import { base64, bytes, Stopped, type Entry, type Kind, type Problem, type Reply } from "./engine";
-import { example, Form, quantity, written } from "./form";
+import { example, Form, largest, quantity, written } from "./form";
 import * as gallery from "./gallery";
 import { Growing } from "./growing";
 import { read, write, LARGEST, LONGEST, type Link } from "./link";
@@ -106,9 +106,6 @@ const asked = (): Asked => ({
   speed: state.speed,
   range: range(),
 });
-
-/** A largest speed, if it is one. */
-const largest = (most?: string, { number: of } = quantity(most ?? "") ?? { number: 0 }) => (of > 0 && of < Infinity ? most : undefined);
 
 /** Speeds of the Campbell diagram: from rest to what is chosen, or half as much again as the speed of the case. */
 function range(): string | undefined {

@@ -63,18 +63,21 @@ export async function film({ canvas }: Room, drawn: Drawn, signal: AbortSignal):
   recorder.start();
   const seconds = Math.min(Math.max(drawn.seconds, 1), 30);
   const start = performance.now();
-  await new Promise<void>((resolve, reject) => {
-    const next = () => {
-      const share = (performance.now() - start) / 1000 / seconds;
-      if (signal.aborted) return reject(new Error("The film has ended early: another answer took its place."));
-      drawn.seek(Math.min(share, 1));
-      copy();
-      if (share >= 1) resolve();
-      else requestAnimationFrame(next);
-    };
-    requestAnimationFrame(next);
-  });
-  recorder.stop();
+  try {
+    await new Promise<void>((resolve, reject) => {
+      const next = () => {
+        const share = (performance.now() - start) / 1000 / seconds;
+        if (signal.aborted) return reject(new Error("The film has ended early: another answer took its place."));
+        drawn.seek(Math.min(share, 1));
+        copy();
+        if (share >= 1) resolve();
+        else requestAnimationFrame(next);
+      };
+      requestAnimationFrame(next);
+    });
+  } finally {
+    recorder.stop();
+  }
   await ended;
   return new Blob(parts, { type: "video/webm" });
 }
