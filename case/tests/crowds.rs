@@ -4,10 +4,13 @@
 
 use super::verification::run::integrate;
 use flexion::contact::{Augmented, RowLaw};
-use flexion::linalg::{Matrix, Structure};
 use flexion_case::{Reading, Run, parse};
+use problem::Problem;
 use std::ops::ControlFlow;
 use std::path::Path;
+
+#[path = "../examples/cones/problem.rs"]
+mod problem;
 
 /// A rod that falls flat.
 const ROD: &str = "
@@ -202,52 +205,53 @@ fn a_tilted_box_that_falls_on_its_corners_comes_to_rest() {
     assert!(gained < 1e-9, "{gained:e}");
 }
 
-/// The cone problem of a step of twelve balls in a tube, 87 rows of rank 71, on which Newton's method goes to and fro: gradients settle it.
+/// Cone problems of steps of twelve balls in a tube, 87 rows of rank 71, on which Newton's method goes to and fro: gradients settle one. Of the other, whose b lies beside the range
+/// of W, no forces fit the motion, and it is told what is left.
 #[test]
 fn a_heap_settles() {
-    let text = include_str!("../../benches/cones/problems/heap_87_rows_later.json");
-    let problem: serde_json::Value = serde_json::from_str(text).unwrap();
-    let order = problem["order"].as_u64().unwrap() as usize;
-    let mut matrix = Matrix::new(&Structure::dense(order));
-    let entries: Vec<(usize, usize, f64)> = serde_json::from_value(problem["matrix"].clone()).unwrap();
-    entries.iter().for_each(|(i, j, x)| matrix.add(*i, *j, *x));
-    let rows: Vec<Vec<(usize, f64)>> = serde_json::from_value(problem["rows"].clone()).unwrap();
-    let law = |law: &serde_json::Value| match law[1].as_f64() {
-        None => RowLaw::Unilateral,
-        Some(coefficient) => RowLaw::Friction { coefficient, normal: law[2].as_u64().unwrap() as usize },
-    };
-    let laws: Vec<RowLaw> = problem["laws"].as_array().unwrap().iter().map(law).collect();
-    let [b, mut forces] = ["b", "start"].map(|name| {
-        let list: Vec<f64> = serde_json::from_value(problem[name].clone()).unwrap();
-        list
-    });
+    let read = |text| Problem::read(text).unwrap();
+    let problem = read(include_str!("../../benches/cones/problems/heap_87_rows_later.json"));
+    let Problem { matrix, order, rows, laws, b, .. } = &problem;
+    let mut factored = matrix.clone();
+    factored.factor().unwrap();
     let mut many = Augmented::default();
-    many.keep(&matrix, order);
-    matrix.factor().unwrap();
-    many.begin(&laws);
-    rows.iter().for_each(|row| many.push(row.iter().copied()));
-    let mut y = vec![0.0; order];
-    many.solve(&mut matrix, &b, &mut forces, &mut y).unwrap();
+    many.keep(matrix, *order);
+    let [y, forces] = problem.solve(&mut many, &mut factored).unwrap();
+    assert!(many.residual < 1e-10 && many.unsettled == 0.0);
     let largest = forces.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    for (i, law) in laws.iter().enumerate() {
-        if *law != RowLaw::Unilateral {
-            continue;
-        }
+    for (i, _) in laws.iter().enumerate().filter(|(_, law)| **law == RowLaw::Unilateral) {
         let rate = |i: usize| b[i] + rows[i].iter().map(|(j, g)| g * y[*j]).sum::<f64>();
-        let friction: Vec<usize> = (0..laws.len())
-            .filter(|k| matches!(laws[*k], RowLaw::Friction { normal, .. } if normal == i))
-            .collect();
-        let (slides, holds) = (size(&friction, &rate), size(&friction, &|k| forces[k]));
-        // Rates are of 1e-2 m/s, forces of some 1e-3 N s.
+        let friction =
+            || (0..laws.len()).filter(|k| matches!(laws[*k], RowLaw::Friction { normal, .. } if normal == i));
+        let slides = friction().map(rate).fold(0.0, f64::hypot);
+        let holds = friction().map(|k| forces[k]).fold(0.0, f64::hypot);
         assert!(forces[i] >= 0.0 && rate(i) > -1e-9 && forces[i] * rate(i).abs() < 1e-9 * largest);
         assert!(holds <= 0.3 * forces[i] * (1.0 + 1e-9));
         if slides > 1e-8 && forces[i] > 1e-6 * largest {
             assert!(holds > 0.3 * forces[i] * (1.0 - 1e-4), "{i}: {slides} {holds} {}", forces[i]);
         }
     }
+
+    let problem = read(include_str!("../../benches/cones/problems/heap_87_rows_beside.json"));
+    let mut factored = problem.matrix.clone();
+    factored.factor().unwrap();
+    many.keep(&problem.matrix, problem.order);
+    assert!(problem.solve(&mut many, &mut factored).is_err());
+    let mut many = Augmented::default().lenient();
+    many.keep(&problem.matrix, problem.order);
+    problem.solve(&mut many, &mut factored).unwrap();
+    assert!(
+        many.unsettled == many.residual && many.residual > 1e-8 && many.residual < 1e-5,
+        "{}",
+        many.residual
+    );
 }
 
-/// The size of the vector of these rows.
-fn size(rows: &[usize], of: &dyn Fn(usize) -> f64) -> f64 {
-    rows.iter().map(|i| of(*i)).fold(0.0, f64::hypot)
+/// In the last of six steps of a heap no forces fit the motion to 1e-8: what is left is told. (Another order of the operations may find some that do.)
+#[test]
+fn forces_that_do_not_settle_are_told() {
+    let run = integrate(&read(include_str!("heap.toml"))).unwrap();
+    assert_eq!(run.failure, None);
+    let told = |warning: &String| warning.contains("in 1 step the forces of contacts did not settle");
+    assert!(run.warnings.iter().any(told), "{:?}", run.warnings);
 }

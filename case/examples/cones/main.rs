@@ -6,9 +6,11 @@
 
 #![allow(clippy::print_stdout)]
 
-use flexion::contact::{Augmented, RowLaw};
-use flexion::linalg::{Matrix, Structure};
-use serde_json::{Value, json};
+mod problem;
+
+use flexion::contact::Augmented;
+use problem::Problem;
+use serde_json::json;
 use std::error::Error;
 use std::time::{Duration, Instant};
 
@@ -17,43 +19,24 @@ const LEAST: Duration = Duration::from_millis(200);
 
 fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(1).ok_or("cones PROBLEM.json")?;
-    let problem: Value = serde_json::from_str(&std::fs::read_to_string(file)?)?;
-    let numbers =
-        |value: &Value| -> Result<Vec<f64>, Box<dyn Error>> { Ok(serde_json::from_value(value.clone())?) };
-    let order = problem["order"].as_u64().ok_or("no order")? as usize;
-    let entries: Vec<(usize, usize, f64)> = serde_json::from_value(problem["matrix"].clone())?;
-    let rows: Vec<Vec<(usize, f64)>> = serde_json::from_value(problem["rows"].clone())?;
-    let law = |law: &Value| match (law[0].as_str(), law[1].as_f64(), law[2].as_u64()) {
-        (Some("unilateral"), ..) => Ok(RowLaw::Unilateral),
-        (Some("friction"), Some(coefficient), Some(normal)) => {
-            Ok(RowLaw::Friction { coefficient, normal: normal as usize })
-        }
-        _ => Err("a law is [\"unilateral\"] or [\"friction\", coefficient, normal row]"),
-    };
-    let laws = problem["laws"].as_array().ok_or("no laws")?;
-    let laws = laws.iter().map(law).collect::<Result<Vec<_>, _>>()?;
-    let (b, start) = (numbers(&problem["b"])?, numbers(&problem["start"])?);
-    let mut plain = Matrix::new(&Structure::dense(order));
-    entries.iter().for_each(|(i, j, x)| plain.add(*i, *j, *x));
-    let mut factored = plain.clone();
+    let problem = Problem::read(&std::fs::read_to_string(file)?)?;
+    let mut many = Augmented::default().lenient();
+    many.keep(&problem.matrix, problem.order);
+    let mut factored = problem.matrix.clone();
     factored.factor()?;
-    let mut many = Augmented::default();
-    many.keep(&plain, order);
     let (mut count, began) = (0, Instant::now());
     let multipliers = loop {
-        many.begin(&laws);
-        rows.iter().for_each(|row| many.push(row.iter().copied()));
-        let (mut multipliers, mut motion) = (start.clone(), vec![0.0; order]);
-        many.solve(&mut factored, &b, &mut multipliers, &mut motion)?;
+        let [_, multipliers] = problem.solve(&mut many, &mut factored)?;
         count += 1;
         if began.elapsed() > LEAST {
             break multipliers;
         }
     };
     let seconds = began.elapsed().as_secs_f64() / f64::from(count);
+    let (iterations, residual) = (many.iterations, many.residual);
     println!(
         "{}",
-        json!({ "multipliers": multipliers, "iterations": many.iterations, "residual": many.residual, "seconds": seconds })
+        json!({ "multipliers": multipliers, "iterations": iterations, "residual": residual, "seconds": seconds })
     );
     Ok(())
 }

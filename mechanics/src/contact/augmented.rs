@@ -106,10 +106,13 @@ pub struct Augmented {
     ratio: f64,
     plain: Option<Matrix>,
     work: Option<Matrix>,
-    /// Newton's iterations, and the residual over the largest multiplier, of the problem solved last.
+    /// Iterations of the problem solved last.
     pub iterations: usize,
-    /// See [`Augmented::iterations`].
+    /// Its residual over the largest multiplier.
     pub residual: f64,
+    /// The residual, where gradients of a [lenient](Augmented::lenient) problem ended with more than is tolerable; else 0.
+    pub unsettled: f64,
+    lenient: bool,
 }
 
 impl Augmented {
@@ -224,7 +227,7 @@ impl Augmented {
         self.rates.clear();
         self.rates.extend_from_slice(b);
         self.measure();
-        (self.iterations, self.residual) = (0, f64::INFINITY);
+        (self.iterations, self.residual, self.unsettled) = (0, f64::INFINITY, 0.0);
         let mut y = std::mem::take(&mut self.motion);
         let [first, others @ ..] = STIFFNESSES;
         let settled = self.attempt(factored, b, lambda, &mut y, first)

@@ -28,22 +28,27 @@ pub(super) struct Impulses {
     images: Vec<f64>,
     /// For many rows, whose products have room in A.
     many: Option<Augmented>,
-    /// Unknowns before the multipliers of contacts, which couple to nothing in A.
+    /// Unknowns up to the multiplier of the last joint: those of contacts behind it couple to nothing in A.
     leading: usize,
     few: Few,
+    /// What is left of the problem solved last where it has [not settled](Augmented::unsettled), over its largest multiplier; else 0.
+    pub(super) residual: f64,
 }
 
 impl Impulses {
     /// Memory for the rows of a system and matrices of the given order.
     pub(super) fn new(system: &dyn Dynamics, order: usize) -> Impulses {
-        let contacts = system.rows().iter().filter(|set| **set != Set::Free).count();
+        let rows = system.rows();
+        let contacts = rows.iter().filter(|set| **set != Set::Free).count();
+        let joints = rows.iter().rposition(|set| *set == Set::Free).map_or(0, |last| last + 1);
         let many = contacts > FEW && system.contacts_are_local();
         // That of many rows is made when it is needed.
-        let rows = if many { FEW } else { system.rows().len() };
+        let rows = if many { FEW } else { rows.len() };
         Impulses {
-            many: many.then(Augmented::default),
-            leading: order.min(system.size().v + system.rows().len() - contacts),
+            many: many.then(|| Augmented::default().lenient()),
+            leading: order.min(system.size().v + joints),
             few: Few::new(rows),
+            residual: 0.0,
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
             w: Vec::with_capacity(rows * rows),
@@ -92,7 +97,7 @@ impl Impulses {
     }
 
     /// Solves for the multipliers `p` of the rows that take part and adds what their change does to the increment `x`;
-    /// `jacobian` are the stored ones, and `value` gives the value of a row before the increment.
+    /// `jacobian` are the stored ones, and `value` gives the value of a row before the increment. The `residual` tells whether they have settled.
     pub(super) fn solve(
         &mut self,
         matrix: &mut Matrix,
@@ -102,6 +107,7 @@ impl Impulses {
         x: &mut [f64],
     ) -> Result<(), Unresolved> {
         let (n, m) = (x.len(), self.rows.len());
+        self.residual = 0.0;
         if m == 0 {
             return Ok(());
         }
@@ -121,6 +127,7 @@ impl Impulses {
                 self.solution.push(p[row]);
             }
             if many.solve(matrix, &self.b, &mut self.solution, x).is_ok() {
+                self.residual = many.unsettled;
                 self.rows.iter().zip(&self.solution).for_each(|(&row, x)| p[row] = *x);
                 return Ok(());
             }

@@ -105,6 +105,8 @@ pub struct StepReport {
     pub error: Option<f64>,
     /// The unknown with the largest estimated error.
     pub worst: usize,
+    /// Where the forces of contacts did not settle: what a force and the motion of its contact contradict each other by, over the largest; else 0.
+    pub unsettled: f64,
 }
 
 /// Why a step failed. Every variant says when, how large and what to try.

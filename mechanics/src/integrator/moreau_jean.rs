@@ -251,7 +251,7 @@ impl Stepper for MoreauSteps {
         counters: &mut Counters,
     ) -> Result<StepReport, StepError> {
         let iterations = self.solve(system, from, span.step, to, counters)?;
-        Ok(StepReport { iterations, ..StepReport::default() })
+        Ok(StepReport { iterations, unsettled: self.part.residual, ..StepReport::default() })
     }
 
     fn accept(&mut self, _from: &State, _to: &State) {}

@@ -61,6 +61,8 @@ pub struct Recorder<'a> {
     chatter: Option<Chatter>,
     /// When events of continuous forces began to follow each other fast, and the time between them.
     grinds: Option<(f64, f64)>,
+    /// Steps in which the forces of contacts did not settle, the largest residual, and when.
+    unsettled: Option<(u64, f64, f64)>,
     passing: Passing,
     /// Whether the steps are fixed.
     fixed: bool,
@@ -159,6 +161,7 @@ impl<'a> Recorder<'a> {
             stepped_over: None,
             chatter: None,
             grinds: None,
+            unsettled: None,
             passing,
             fixed: plan.step.is_some(),
             watch: None,
@@ -202,7 +205,9 @@ impl<'a> Recorder<'a> {
             less,
         });
         let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
-        let of_contacts = stepped_over.into_iter().chain(chatter).chain(grinds);
+        let unsettled =
+            self.unsettled.map(|(steps, largest, time)| Warning::Unsettled { steps, largest, time });
+        let of_contacts = stepped_over.into_iter().chain(chatter).chain(grinds).chain(unsettled);
         gain.or(doubtful).into_iter().chain(of_contacts).chain(coarse).collect()
     }
 
@@ -309,6 +314,14 @@ impl Observer for Recorder<'_> {
 
     fn grinds(&mut self, time: f64, mean: f64) {
         self.grinds.get_or_insert((time, mean));
+    }
+
+    fn unsettled(&mut self, time: f64, residual: f64) {
+        let (steps, largest, at) = self.unsettled.get_or_insert_default();
+        *steps += 1;
+        if residual > *largest {
+            (*largest, *at) = (residual, time);
+        }
     }
 
     fn passing(&mut self, system: &mut dyn System, state: &State) {

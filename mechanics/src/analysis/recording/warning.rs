@@ -75,6 +75,20 @@ pub enum Warning {
         /// Mean time between events \[s\].
         mean: f64,
     },
+    /// The forces of contacts did not settle.
+    #[error(
+        "in {steps} step{} the forces of contacts did not settle as far as is asked, and the best that were found are taken: at worst, in the step that ends at \
+         t = {time:.6} s, a force is off by {largest:.1e} of the largest one from what the motion of its contact asks for",
+        if *steps == 1 { "" } else { "s" }
+    )]
+    Unsettled {
+        /// Number of such steps.
+        steps: u64,
+        /// Largest residual, over the largest force.
+        largest: f64,
+        /// End of the step with it \[s\].
+        time: f64,
+    },
     /// Fixed steps do not resolve the vibration that makes up most of the motion.
     #[error(
         "the motion is mostly a vibration of {steps:.1} steps a period, and its amplitude and phase need {wanted} at least"

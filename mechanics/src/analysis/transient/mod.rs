@@ -300,6 +300,9 @@ impl Run {
             }
             observer.passing(system, &next);
             let rests = self.bursts.count(system, h, struck.as_ref());
+            if report.unsettled > 0.0 {
+                observer.unsettled(next.t, report.unsettled);
+            }
             if resolves {
                 if let Some(event) = struck {
                     observer.event(&event);

@@ -101,6 +101,10 @@ pub trait Observer {
     /// method locates no events, and a point may have passed through an obstacle.
     fn stepped_over(&mut self, _time: f64, _row: usize) {}
 
+    /// The forces of contacts did not settle in the step that ends at `time`: what a force and the motion of its contact contradict each other by is `residual` of the
+    /// largest.
+    fn unsettled(&mut self, _time: f64, _residual: f64) {}
+
     /// From `begin` to `end` contacts chattered, and were followed by steps of a nonsmooth method that are not longer than `step` \[s\]; dampers
     /// have taken `less` \[J\] less than by their power at the ends of these.
     fn burst(&mut self, _begin: f64, _end: f64, _step: f64, _less: f64) {}

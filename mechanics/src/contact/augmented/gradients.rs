@@ -8,13 +8,13 @@
 //!
 //! with the projection Π on the cones, the stiffness s of each contact, and λ the largest eigenvalue of s W, by its powers. Where Λ goes against the last step, t begins at 1
 //! anew. A step costs a solution with the factors of A and O(1) for each row. It takes some hundreds to thousands, and contacts that stick and slip by turns do not disturb it: the
-//! problems of a heap on which Newton's method goes to and fro for ever end so. Where b lies beside the range of W there is no Λ, and the residual falls no further: up to 1e-5 of
-//! the largest multiplier may then be left. Of redundant contacts it finds the motion, and of their multipliers some, not those of least norm.
+//! problems of a heap on which Newton's method goes to and fro for ever end so. Where b lies beside the range of W there is no Λ, and the residual falls no further: who
+//! asks for it gets what leaves up to 1e-5 of the largest multiplier. Of redundant contacts it finds the motion, and of their multipliers some, not those of least norm.
 //!
 //! Sources: Beck & Teboulle (2009, doi 10.1137/080716542), O'Donoghue & Candès (2015, doi 10.1007/s10208-013-9150-3) for beginning anew; de Saxcé & Feng
 //! (1998, doi 10.1016/S0895-7177(98)00119-8) for the cones.
 
-use super::{Augmented, BESIDE, FALLING, Group};
+use super::{Augmented, BESIDE, FALLING, Group, TOLERABLE};
 use crate::contact::RowLaw;
 use crate::linalg::Matrix;
 
@@ -30,6 +30,12 @@ const POWERS: u32 = 40;
 const SLACK: f64 = 1.05;
 
 impl Augmented {
+    /// The same, where Λ is taken too whose residual falls no further than 1e-5 of the largest: whoever asks for that tells what is [left](Augmented::unsettled).
+    #[must_use]
+    pub fn lenient(self) -> Augmented {
+        Augmented { lenient: true, ..self }
+    }
+
     /// Solves for Λ from Λ₀, with the motion y; whether it settled. Rows of given slip have no cone, and are left to Newton's method.
     pub(super) fn descend(
         &mut self,
@@ -49,6 +55,7 @@ impl Augmented {
         let length = 1.0 / self.largest(factored, &mut next, y);
         self.onto_cones(&mut ahead);
         lambda.copy_from_slice(&ahead);
+        let most = if self.lenient { BESIDE } else { TOLERABLE };
         let (mut t, mut least, mut fell) = (1.0_f64, f64::INFINITY, 0);
         for step in 1..=STEPS {
             self.rates_by(factored, b, &ahead, y);
@@ -79,14 +86,18 @@ impl Augmented {
                 if self.residual < FALLING * least {
                     (least, fell) = (self.residual, step);
                 }
-                let at_rest = self.residual <= BESIDE && step - fell >= PATIENCE;
-                if self.residual <= CLOSE || at_rest || !self.residual.is_finite() {
+                let stands = self.residual <= most && step - fell >= PATIENCE;
+                if self.residual <= CLOSE || stands || !self.residual.is_finite() {
                     break;
                 }
             }
         }
         (self.ahead, self.next) = (ahead, next);
-        self.residual <= BESIDE
+        let settled = self.residual <= most;
+        if settled && self.residual > TOLERABLE {
+            self.unsettled = self.residual;
+        }
+        settled
     }
 
     /// u = b + G A⁻¹ Gᵀ (Λ − Λ₀), by way of y.

@@ -162,7 +162,8 @@ impl Coupled {
         if !to.is_finite() {
             return Err(failure::not_finite(system, work.from.t, h, to));
         }
-        Ok(StepReport { iterations: work.convergence.iterations(), ..StepReport::default() })
+        let iterations = work.convergence.iterations();
+        Ok(StepReport { iterations, unsettled: work.unsettled(), ..StepReport::default() })
     }
 
     /// Makes position, velocities and accelerations of the attempt from the unknowns: `to` becomes the end of the step,

@@ -40,6 +40,7 @@ impl Work {
         to.a.copy_from_slice(&self.trial.a);
         to.lambda.copy_from_slice(&self.trial.lambda);
         self.modes(&to.lambda, &mut to.mode);
+        report.unsettled = self.unsettled();
         if to.is_finite() { Ok(report) } else { Err(failure::not_finite(system, from.t, span.step, to)) }
     }
 

@@ -105,6 +105,8 @@ struct Work {
     matrix: Matrix,
     rows: Rows,
     impulses: Impulses,
+    /// What the cone problems of the last iteration have left, of the position and of the velocity.
+    residuals: [f64; 2],
     /// Jacobian at the start of the step, and the rows that acted then, but for friction that twists; whether a contact that takes part is one of them.
     before: Rows,
     acted: Vec<bool>,
@@ -168,6 +170,7 @@ impl Work {
             matrix: Matrix::new(&system.structure(1)),
             rows: Rows::new(system, &state()),
             impulses: Impulses::new(system, n + m),
+            residuals: [0.0; 2],
             before: Rows::new(system, &state()),
             acted: vec![false; m],
             twists: (0..m).map(|row| system.twists(row)).collect(),
@@ -204,6 +207,7 @@ impl Work {
 
     /// The start of a step: `from` with all contacts open and the accelerations of the smooth motion.
     fn begin(&mut self, from: &State) {
+        self.residuals = [0.0; 2];
         (self.from.t, self.from.side) = (from.t, from.side);
         self.from.q.copy_from_slice(&from.q);
         self.from.v.copy_from_slice(&from.v);
@@ -284,7 +288,15 @@ impl Work {
             Some((matrix, forces)) => (matrix, forces),
             None => (&mut self.matrix, &mut self.forces[..]),
         };
-        self.impulses.solve(matrix, &self.rows, value, forces, &mut self.rhs)
+        let solved = self.impulses.solve(matrix, &self.rows, value, forces, &mut self.rhs);
+        self.residuals[level as usize] = self.impulses.residual;
+        solved
+    }
+
+    /// What the cone problems of a step have left.
+    fn unsettled(&self) -> f64 {
+        let [position, velocity] = self.residuals;
+        position.max(velocity)
     }
 
     /// The modes of the rows by the forces `lambda`, for those who read the state: impulses decide about contacts.

@@ -239,7 +239,8 @@ impl Stepper for RadauSteps {
         if error <= 1.0 {
             self.good = self.good.max(h);
         }
-        Ok(StepReport { iterations: self.convergence.iterations(), error: Some(error), worst })
+        let iterations = self.convergence.iterations();
+        Ok(StepReport { iterations, error: Some(error), worst, ..StepReport::default() })
     }
 
     fn accept(&mut self, from: &State, to: &State) {
