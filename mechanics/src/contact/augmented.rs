@@ -22,9 +22,11 @@
 //! Sources: Alart & Curnier (1991, doi 10.1016/0045-7825(91)90022-X); Rockafellar (1976, doi 10.1287/moor.1.2.97) for the proximal point method.
 
 mod gradients;
+mod projection;
 
 use super::cone::{RowLaw, Unresolved};
 use crate::linalg::Matrix;
+use projection::{Group, State, projected};
 
 /// ρ of a row in units of its stiffness, one attempt after the other.
 const STIFFNESSES: [f64; 3] = [30.0, 1.0, 1e3];
@@ -43,33 +45,6 @@ const TOLERABLE: f64 = 1e-8;
 const FALLING: f64 = 0.5;
 /// Residual that may be left where the motion is at rest: what of b no multipliers can take away.
 const BESIDE: f64 = 1e-5;
-
-/// A contact: its normal row, and those of its friction.
-#[derive(Clone, Copy, Debug)]
-struct Group {
-    normal: usize,
-    friction: [usize; 2],
-    /// Rows of friction.
-    count: usize,
-}
-
-impl Group {
-    fn rows(&self) -> impl Iterator<Item = usize> + '_ {
-        std::iter::once(self.normal).chain(self.friction[..self.count].iter().copied())
-    }
-}
-
-/// What a contact does at the argument of its projection.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
-    Open,
-    Closed,
-    Sticks,
-    /// It slips with these multipliers over μΛₙ, and with this part |μΛₙ|/|z| of what it would take to stick.
-    Slips([f64; 2], f64),
-    /// It slips as given, Λ = −s Λₙ.
-    Given([f64; 2]),
-}
 
 /// Memory for problems of many rows.
 #[derive(Debug, Default)]
@@ -459,9 +434,7 @@ impl Augmented {
         self.work = Some(work);
         ok && y.iter().all(|y| y.is_finite())
     }
-}
 
-impl Augmented {
     /// The part of the step δ in `force` to take, from y with A y in `image`: all of it, or up to where δᵀF changes its sign, if it has grown by then. Without
     /// friction F is the gradient of a convex function that this part makes least along δ, so that the iteration cannot go to and fro.
     fn part(&mut self) -> f64 {
@@ -500,42 +473,6 @@ impl Augmented {
         (self.projection, self.turn) = (projection, turn);
         bounds[1]
     }
-}
-
-/// The projection of the argument z of a contact into `lambda`.
-fn projected(group: &Group, laws: &[RowLaw], z: impl Fn(usize) -> f64, lambda: &mut [f64]) -> State {
-    let friction = &group.friction[..group.count];
-    let normal = z(group.normal);
-    // NaN is not open.
-    if normal <= 0.0 && laws[group.normal] != RowLaw::Free {
-        lambda[group.normal] = 0.0;
-        friction.iter().for_each(|i| lambda[*i] = 0.0);
-        return State::Open;
-    }
-    lambda[group.normal] = normal;
-    let mut values = [0.0; 2];
-    let Some(first) = friction.first() else { return State::Closed };
-    let coefficient = match laws[*first] {
-        RowLaw::Friction { coefficient, .. } => coefficient,
-        RowLaw::Slip { .. } => {
-            for (i, value) in friction.iter().zip(&mut values) {
-                if let RowLaw::Slip { slope, .. } = laws[*i] {
-                    (*value, lambda[*i]) = (slope, -slope * normal);
-                }
-            }
-            return State::Given(values);
-        }
-        _ => return State::Closed,
-    };
-    friction.iter().zip(&mut values).for_each(|(i, value)| *value = z(*i));
-    let (size, radius) = (libm::hypot(values[0], values[1]), coefficient * normal);
-    if size <= radius {
-        friction.iter().zip(values).for_each(|(i, value)| lambda[*i] = value);
-        return State::Sticks;
-    }
-    let along = values.map(|x| x / size);
-    friction.iter().zip(along).for_each(|(i, along)| lambda[*i] = radius * along);
-    State::Slips(along, radius / size)
 }
 
 #[cfg(test)]

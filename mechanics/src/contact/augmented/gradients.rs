@@ -14,7 +14,8 @@
 //! Sources: Beck & Teboulle (2009, doi 10.1137/080716542), O'Donoghue & Candès (2015, doi 10.1007/s10208-013-9150-3) for beginning anew; de Saxcé & Feng
 //! (1998, doi 10.1016/S0895-7177(98)00119-8) for the cones.
 
-use super::{Augmented, BESIDE, FALLING, Group, TOLERABLE};
+use super::projection::Group;
+use super::{Augmented, BESIDE, FALLING, TOLERABLE};
 use crate::contact::RowLaw;
 use crate::linalg::Matrix;
 
