@@ -16,7 +16,7 @@ pub(super) fn of_run(warning: &Warning, fixed: bool) -> String {
             "; take fewer points, a softer force, or a `constraint` with `nonsmooth-generalized-alpha`"
         }
         Warning::Unsettled { .. } => "; smaller steps have fewer contacts in one",
-        Warning::Chatter { .. } => "; `contact-step` makes them shorter",
+        Warning::Chatter { .. } | Warning::Rubbing { .. } => "; `contact-step` makes them shorter",
         Warning::FewStepsAPeriod { .. } => ": use smaller steps or the adaptive method `radau`",
         _ => "",
     };

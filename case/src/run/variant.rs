@@ -114,6 +114,7 @@ impl Reading {
                 changes.extend(other(&Controlled::tolerance, Some(relative), Some(before.relative)));
                 changes.extend(other(&Controlled::absolute_tolerance, Some(absolute), Some(before.absolute)));
                 changes.extend(other(&Controlled::max_step, plan.longest_step, own.plan.longest_step));
+                changes.extend(other(&CONTACT_STEP, plan.contact_step, own.plan.contact_step));
             }
             None => changes.push(INTEGRATOR.change_kind(
                 "radau",

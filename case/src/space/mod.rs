@@ -313,18 +313,6 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         let help = "take `radau`, which controls its steps, or `generalized-alpha` with a step";
         return Err(Fault::new("integrator.kind", message).help(help).into());
     }
-    let disc = |contact: &touch::Contact| {
-        matches!(contact.law, touch::Law::Constraint { .. }) && contact.law.has_friction()
-    };
-    if let (Some(method), Some(i)) = (method, touching.iter().position(disc))
-        && !method.integrator.resolves_contacts()
-    {
-        let message = "friction of a rigid contact in space has a direction of its own at every time, which events do not find";
-        let help = "take `nonsmooth-generalized-alpha` or `moreau-jean`, which resolve contacts in every step, or a law of force";
-        let mut tables = points.iter().enumerate().flat_map(|(table, n)| std::iter::repeat_n(table, *n));
-        let table = item("contact", tables.nth(i).unwrap_or(0));
-        return Err(Fault::new(format!("{table}.law.friction"), message).help(help).into());
-    }
     let named = |(i, joint): (usize, &Joint)| numbered(&joint.name, "joint", i);
     let names_of_joints: Vec<String> = joints.iter().enumerate().map(named).collect();
     let tables = tables(&bodies, &beams, &joints, &masses, &loads);

@@ -246,6 +246,13 @@ impl ImpactMap {
         Ok(impact)
     }
 
+    /// Length of what the rows of friction of a contact have.
+    fn along_disc(&self, normal: usize, of_row: impl Fn(usize) -> f64) -> f64 {
+        let rows = (0..self.sets.len())
+            .filter(|i| matches!(self.sets[*i], Set::Friction { normal: n, .. } if n == normal));
+        rows.fold(0.0, |size, row| libm::hypot(size, of_row(row)))
+    }
+
     /// The largest rate of a contact.
     fn largest(&self, rates: &[f64]) -> f64 {
         let contacts = rates.iter().zip(&self.sets).filter(|(_, set)| **set != Set::Free);
@@ -327,8 +334,9 @@ impl ImpactMap {
         let largest = before.max(self.largest(&rates)).max(system.fastest(&state.v));
         let resting = RESTING * largest;
         let slip = |i: usize| match self.sets[i] {
-            Set::Friction { coefficient, .. } if rates[i].abs() > resting => {
-                Some(coefficient.copysign(rates[i]))
+            Set::Friction { coefficient, normal } => {
+                let speed = self.along_disc(normal, |row| rates[row]);
+                (speed > resting).then(|| coefficient * (rates[i] / speed))
             }
             _ => None,
         };
@@ -377,7 +385,9 @@ impl ImpactMap {
                 RowLaw::Slip { .. } => Mode::SlipBackward,
                 RowLaw::Friction { coefficient, normal } => {
                     let limit = coefficient * forces[normal];
-                    if forces[k].abs() < limit * (1.0 - STICKING) || limit == 0.0 {
+                    let of_row = |row: usize| part.rows.iter().position(|i| *i == row).map_or(0.0, |k| forces[k]);
+                    let size = self.along_disc(part.rows[normal], of_row);
+                    if size < limit * (1.0 - STICKING) || limit == 0.0 {
                         Mode::Closed
                     } else if forces[k] < 0.0 {
                         Mode::SlipForward

@@ -1,7 +1,7 @@
 //! Contacts by the hundred: a rod that falls flat on a floor.
 
 use super::{GRAVITY, radau};
-use flexion::analysis::transient::{Ending, Event, EventKind, Observer, Plan, Step, transient};
+use flexion::analysis::transient::{Burst, Ending, Event, EventKind, Observer, Plan, Step, transient};
 use flexion::contact::{Contact, Contacting, Law, Plane};
 use flexion::integrator::{Integrator, MoreauJean, NonsmoothAlpha};
 use flexion::linalg::Vec3;
@@ -55,7 +55,7 @@ impl Observer for Seen {
             self.impulse += impulses.iter().step_by(3).sum::<f64>();
         }
     }
-    fn burst(&mut self, _begin: f64, _end: f64, _step: f64, _lost: f64) {
+    fn burst(&mut self, _burst: &Burst) {
         self.bursts += 1;
     }
 }

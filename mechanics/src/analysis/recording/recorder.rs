@@ -6,7 +6,7 @@ use super::passing::Passing;
 use super::trajectory::Trajectory;
 use super::warning::Warning;
 use crate::analysis::energy_balance::rounding_energy;
-use crate::analysis::transient::{Ending, Event, Observer, Plan, Step};
+use crate::analysis::transient::{Burst, Ending, Event, Observer, Plan, Step};
 use crate::analysis::violation::Violation;
 use crate::integrator::{Checkpoint, Counters, NotResumed};
 use crate::system::{Channel, Direction, Role, Sink, State, System};
@@ -34,9 +34,9 @@ pub struct Columns {
     pub modal_shares: bool,
 }
 
-/// Bursts of contacts that chattered, all together.
+/// Bursts of one kind, all together.
 #[derive(Clone, Copy, Debug, Default)]
-struct Chatter {
+struct Bursts {
     begin: f64,
     duration: f64,
     bursts: u64,
@@ -57,8 +57,9 @@ pub struct Recorder<'a> {
     gain: Option<f64>,
     /// The first time at which a point may have stepped over an obstacle, and the name of its contact.
     stepped_over: Option<(f64, String)>,
-    /// Bursts of contacts that chattered.
-    chatter: Option<Chatter>,
+    /// Bursts of contacts that chattered, and of those that rubbed.
+    chatter: Option<Bursts>,
+    rubbing: Option<Bursts>,
     /// When events of continuous forces began to follow each other fast, and the time between them.
     grinds: Option<(f64, f64)>,
     /// Steps in which the forces of contacts did not settle, the largest residual, and when.
@@ -160,6 +161,7 @@ impl<'a> Recorder<'a> {
             gain: None,
             stepped_over: None,
             chatter: None,
+            rubbing: None,
             grinds: None,
             unsettled: None,
             passing,
@@ -197,17 +199,22 @@ impl<'a> Recorder<'a> {
         let stepped_over = stepped_over.map(|(time, contact)| Warning::SteppedOver { time, contact });
         let coarse = self.passing.steps_a_period().filter(|steps| self.fixed && *steps < STEPS_A_PERIOD);
         let coarse = coarse.map(|steps| Warning::FewStepsAPeriod { steps, wanted: STEPS_A_PERIOD });
-        let chatter = self.chatter.map(|Chatter { begin, duration, bursts, step, less }| Warning::Chatter {
+        let chatter = self.chatter.map(|Bursts { begin, duration, bursts, step, less }| Warning::Chatter {
             begin,
             duration,
             bursts,
             step,
             less,
         });
+        let rubbing = self.rubbing.map(|Bursts { begin, duration, step, .. }| Warning::Rubbing {
+            begin,
+            duration,
+            step,
+        });
         let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
         let unsettled =
             self.unsettled.map(|(steps, largest, time)| Warning::Unsettled { steps, largest, time });
-        let of_contacts = stepped_over.into_iter().chain(chatter).chain(grinds).chain(unsettled);
+        let of_contacts = stepped_over.into_iter().chain(chatter).chain(rubbing).chain(grinds).chain(unsettled);
         gain.or(doubtful).into_iter().chain(of_contacts).chain(coarse).collect()
     }
 
@@ -304,12 +311,13 @@ impl Observer for Recorder<'_> {
         }
     }
 
-    fn burst(&mut self, begin: f64, end: f64, step: f64, less: f64) {
-        let all = self.chatter.get_or_insert(Chatter { begin, ..Chatter::default() });
-        all.duration += end - begin;
+    fn burst(&mut self, burst: &Burst) {
+        let kind = if burst.rubbing { &mut self.rubbing } else { &mut self.chatter };
+        let all = kind.get_or_insert(Bursts { begin: burst.begin, ..Bursts::default() });
+        all.duration += burst.end - burst.begin;
         all.bursts += 1;
-        all.step = all.step.max(step);
-        all.less += less;
+        all.step = all.step.max(burst.step);
+        all.less += burst.less;
     }
 
     fn grinds(&mut self, time: f64, mean: f64) {

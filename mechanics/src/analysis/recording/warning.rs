@@ -65,6 +65,19 @@ pub enum Warning {
         /// What dampers have taken less than by their power \[J\].
         less: f64,
     },
+    /// Rigid contacts rubbed in space, and were followed by steps of a nonsmooth method.
+    #[error(
+        "rigid contacts with friction in space are closed for {duration:.4} s, from t = {begin:.6} s on: meanwhile steps of `nonsmooth-generalized-alpha` of at most \
+         {step:.2e} s follow the direction of sliding, and take the place of the steps of this method and of its tolerance"
+    )]
+    Rubbing {
+        /// When the first such contact closed \[s\].
+        begin: f64,
+        /// For how long contacts were followed so \[s\].
+        duration: f64,
+        /// Longest step \[s\].
+        step: f64,
+    },
     /// Events of continuous forces follow each other fast.
     #[error(
         "from t = {time:.6} s on, forces of contacts begin and end every {mean:.1e} s, each located as an event: the run takes long"

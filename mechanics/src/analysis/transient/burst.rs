@@ -14,7 +14,7 @@
 use super::breaks::next_break;
 use super::contacts::Contacts;
 use super::segment::Segment;
-use super::{Ending, Event, EventKind, Leg, Observer, Plan, Run, RunError};
+use super::{Burst, Ending, Event, EventKind, Leg, Observer, Plan, Run, RunError};
 use crate::integrator::{Integration, Integrator, NonsmoothAlpha, StepError};
 use crate::system::{State, System};
 
@@ -27,7 +27,8 @@ const FIRST_PART: f64 = 0.125;
 const HALVINGS: u32 = 12;
 
 impl Run {
-    /// Follows contacts that chatter from `state` until they have come to rest, or to the end of the run. `mean` is the time between their events.
+    /// Follows contacts that chatter from `state` until they have come to rest, or to the end of the run. `mean` is the time between their events, 0 for contacts that
+    /// [rub](super::rubbing) and are followed until they are open.
     pub(super) fn burst(
         &mut self,
         system: &mut dyn System,
@@ -39,6 +40,7 @@ impl Run {
         let longest = plan.step.unwrap_or_else(|| plan.longest_from(self.origin));
         let step = plan.contact_step.unwrap_or((PART * longest).max(mean));
         (self.bursts.longest, self.bursts.step, self.bursts.count) = (step, FIRST_PART * step, 0);
+        let rubbing = mean == 0.0;
         let begin = state.t;
         let mut own = (self.contacts.take(), self.control.take(), self.segment.take());
         if let Some(contacts) = &mut own.0 {
@@ -50,10 +52,10 @@ impl Run {
         }
         observer.begin(true);
         let within = Plan { step: Some(self.bursts.step), longest_step: None, contact_step: None, ..*plan };
-        let result = self.nonsmooth(system, state, &within, observer, integrator, own.0);
+        let result = self.nonsmooth(system, state, &within, observer, integrator, (own.0, rubbing));
         (self.control, self.segment) = (own.1, own.2);
         let less = self.balance.as_mut().map_or(0.0, super::Integral::end_burst);
-        observer.burst(begin, state.t, step, less);
+        observer.burst(&Burst { begin, end: state.t, step, less, rubbing });
         let (ended, contacts) = result?;
         self.contacts = contacts;
         if ended.is_some() {
@@ -82,7 +84,7 @@ impl Run {
         plan: &Plan,
         observer: &mut dyn Observer,
         integrator: &mut Integration,
-        mut contacts: Option<Contacts>,
+        (mut contacts, rubbing): (Option<Contacts>, bool),
     ) -> Result<(Option<Ending>, Option<Contacts>), RunError> {
         let Ok(method) = NonsmoothAlpha::decoupled(SPECTRAL_RADIUS) else { return Ok((None, contacts)) };
         let started = method.start(system, state, self.bursts.step);
@@ -119,8 +121,13 @@ impl Run {
                 Some(contacts) => contacts.settle(system, &mut settled).is_ok(),
                 None => false,
             };
+            if held && self.rubbing.is_on(&settled) {
+                continue;
+            }
             if held && settled.is_finite() && integrator.restart(system, &mut settled).is_ok() {
-                self.bursts.hold = self.bursts.hold.saturating_mul(2);
+                if !rubbing {
+                    self.bursts.hold = self.bursts.hold.saturating_mul(2);
+                }
                 *state = settled;
                 if let Some(balance) = &mut self.balance {
                     balance.restart(system, state);

@@ -96,7 +96,7 @@ const DOUBLED: u32 = 100;
 /// What bursts of a run have in common.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bursts {
-    /// Mean time between events \[s\] of a burst that is to begin.
+    /// Mean time between events \[s\] of a burst that is to begin, 0 of one of contacts that rub.
     pub(super) due: Option<f64>,
     /// Steps without a change behind which the next one ends.
     pub(super) hold: u32,
@@ -159,13 +159,13 @@ impl Bursts {
     /// What later steps depend on, as numbers.
     pub(super) fn memory(&self) -> [f64; 6] {
         let Neglected { count, time, gap, energy } = self.neglected;
-        [f64::from(self.hold), count as f64, time, gap, energy, self.due.unwrap_or_default()]
+        [f64::from(self.hold), count as f64, time, gap, energy, self.due.unwrap_or(-1.0)]
     }
 
     /// From the [memory](Bursts::memory) of a run.
     pub(super) fn recall([hold, count, time, gap, energy, due]: [f64; 6]) -> Bursts {
         let neglected = Neglected { count: count as u64, time, gap, energy };
-        let due = (due > 0.0).then_some(due);
+        let due = (due >= 0.0).then_some(due);
         Bursts { due, hold: hold as u32, neglected, ..Bursts::default() }
     }
 

@@ -74,13 +74,6 @@ impl Contacts {
         if self.resolved {
             return Ok(());
         }
-        let sets = system.rows();
-        let friction_rows = |normal: usize| {
-            sets.iter().filter(|set| matches!(set, Set::Friction { normal: n, .. } if *n == normal)).count()
-        };
-        if let Some(normal) = (0..sets.len()).find(|i| friction_rows(*i) > 1) {
-            return Err(RunError::Disc { normal: system.unknown(state.v.len() + normal) });
-        }
         let touching = 100.0 * TOUCHING * self.locator.length;
         let settled = self.map.settle(system, state, touching, &[]);
         settled.map_err(|cause| RunError::Contact { time: state.t, cause })

@@ -48,14 +48,6 @@ pub enum RunError {
         /// Why.
         cause: ImpactError,
     },
-    /// A contact has friction in two directions.
-    #[error(
-        "the contact of the {normal} has friction in two directions, and events are found for one: use a nonsmooth integrator (nonsmooth-generalized-alpha, moreau-jean)"
-    )]
-    Disc {
-        /// Name of the normal row's multiplier.
-        normal: String,
-    },
     /// Events accumulate.
     #[error(
         "{count} events follow each other at t = {time:.9} s with no time between them: the contacts chatter; give them less restitution or use a continuous contact force"

@@ -14,12 +14,13 @@ mod locate;
 mod observer;
 mod plan;
 mod resumable;
+mod rubbing;
 mod segment;
 mod show;
 
 use ending::failed;
 pub use ending::{Ending, RunError};
-pub use observer::{Event, EventKind, Observer, Step};
+pub use observer::{Burst, Event, EventKind, Observer, Step};
 pub use plan::Plan;
 pub use resumable::resumable;
 
@@ -34,6 +35,7 @@ use adaptive::adapt;
 use breaks::{is_fixed, jump_at, next_break, stop};
 use chatter::{Bursts, Together};
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
+use rubbing::Rubbing;
 use segment::Segment;
 
 /// Blocks of events of continuous forces, too fast for what is left of a run, behind which it says so: those of one flat fall are no reason.
@@ -116,6 +118,7 @@ struct Run {
     /// Whether the next step is the first of a smooth motion.
     begins: bool,
     bursts: Bursts,
+    rubbing: Rubbing,
 }
 
 /// Why a part of a run with one method is over.
@@ -123,7 +126,7 @@ struct Run {
 enum Leg {
     /// The run is.
     Ended(Ending),
-    /// Contacts chatter.
+    /// Contacts chatter, or rub in space.
     Chatters,
     /// The contacts of a burst have come to rest.
     Settled,
@@ -146,6 +149,7 @@ impl Run {
             gaps: vec![0.0; state.lambda.len()],
             begins: true,
             bursts: Bursts::default(),
+            rubbing: Rubbing::new(system.rows()),
         }
     }
 
@@ -164,6 +168,9 @@ impl Run {
         }
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
+            if !contacts.resolved {
+                self.leave_rubbing(system, state);
+            }
         }
         observer.begin(integrator.resolves_contacts());
         self.segment = plan.step.filter(|_| is_fixed(integrator.info())).map(|h| {
@@ -338,7 +345,7 @@ impl Run {
                 {
                     observer.grinds(state.t, mean);
                 }
-                self.bursts.due = contacts.chatter.count(state.t, contact, left);
+                self.bursts.due = self.bursts.due.or(contacts.chatter.count(state.t, contact, left));
             }
             if observer.step(state).is_break() && state.t < plan.end {
                 return Ok(Leg::Ended(Ending::Stopped));
@@ -346,7 +353,7 @@ impl Run {
             if self.bursts.due.is_some() && state.t < plan.end {
                 return Ok(Leg::Chatters);
             }
-            if rests && state.t < plan.end {
+            if rests && !self.rubbing.is_on(state) && state.t < plan.end {
                 return Ok(Leg::Settled);
             }
             if let Some(step) = self.bursts.longer()
@@ -540,6 +547,9 @@ impl Run {
             observer.event(&Event { time: state.t, kind, modes: state.mode.clone() });
         }
         system.pass(state).map_err(|reason| RunError::Ended { time: state.t, reason })?;
+        if !integrator.resolves_contacts() {
+            self.leave_rubbing(system, state);
+        }
         integrator.restart(system, state).map_err(|error| failed(system, state, error))?;
         if struck {
             integrator.struck();

@@ -19,6 +19,21 @@ pub struct Step {
     pub neglected: Neglected,
 }
 
+/// A part of a run in which steps of a nonsmooth method took the place of those of the method of the run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Burst {
+    /// Its begin \[s\].
+    pub begin: f64,
+    /// Its end \[s\].
+    pub end: f64,
+    /// Its longest step \[s\].
+    pub step: f64,
+    /// What dampers have taken less than by their power at the ends of steps \[J\].
+    pub less: f64,
+    /// Whether it was for the friction of contacts in space, and not for contacts that chatter.
+    pub rubbing: bool,
+}
+
 /// Something that happened at one time of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Event {
@@ -105,9 +120,8 @@ pub trait Observer {
     /// largest.
     fn unsettled(&mut self, _time: f64, _residual: f64) {}
 
-    /// From `begin` to `end` contacts chattered, and were followed by steps of a nonsmooth method that are not longer than `step` \[s\]; dampers
-    /// have taken `less` \[J\] less than by their power at the ends of these.
-    fn burst(&mut self, _begin: f64, _end: f64, _step: f64, _less: f64) {}
+    /// Steps of a nonsmooth method have followed contacts.
+    fn burst(&mut self, _burst: &Burst) {}
 
     /// At `time` continuous forces of contacts, or what the model indicates, begin and end so fast, with the time `mean` \[s\] between, that the run has more events
     /// before it than it is likely to come through.

@@ -56,7 +56,7 @@ impl Run {
         let [origin, samples, begins, open] = from.finite("run")?;
         if open != 0.0 {
             return Err(NotResumed::Failed(
-                "it ended while its contacts chattered, with another method than its own: run the case from its start".to_owned(),
+                "it ended while contacts chattered, or rubbed in space, with another method than its own: run the case from its start".to_owned(),
             ));
         }
         if !(origin <= state.t && samples >= 0.0) {
