@@ -3,9 +3,10 @@
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
 use crate::written::{finished, outcome, reading};
-use flexion_case::{Reading, Run};
+use flexion_case::{Effort, Reading, Run};
 use flexion_results::Status;
 use std::f64::consts::PI;
+use std::ops::ControlFlow;
 
 /// A rod in space falls with its tip onto a floor: the mass that takes part there is one of the mesh, that of a body is not.
 #[test]
@@ -275,6 +276,72 @@ fn friction_on_a_ball_knows_no_poles() {
         // A step without friction would be 2e-3 m/s.
         for (a, b) in top.iter().zip(side) {
             assert!((a - b).abs() < 2e-6, "{scheme}: {top:?} {side:?}");
+        }
+    }
+}
+
+/// A solid ball that slides with a spin of its own about any axis: its contact moves with c = v − R ω × n, friction turns and slows both so that c keeps its direction,
+/// ċ = −7/2 μg c/|c|, on a parabola. It rolls from t = 2|c|/(7μg) on, straight on with v − 2/7 c. The same where it falls first: of an impulse P = m(1 + e)v, friction takes
+/// the smaller of μP and 2/7 m|c|.
+#[test]
+fn a_ball_with_a_spin_of_its_own_slides_on_a_parabola_and_rolls() {
+    const G: f64 = 9.81;
+    let (radius, friction, velocity, spin): (f64, f64, [f64; 2], [f64; 2]) =
+        (0.05, 0.2, [2.0, -0.5], [30.0, 25.0]);
+    // −R ω × n = R (−ω_y, ω_x)
+    let sliding = [velocity[0] - radius * spin[1], velocity[1] + radius * spin[0]];
+    let size = sliding[0].hypot(sliding[1]);
+    let along = sliding.map(|c| c / size);
+    for (height, e) in [(0.0, 0.0), (0.3, 0.0), (0.3, 0.4)] {
+        let fall = (2.0 * height / G as f64).sqrt();
+        // Sliding velocity behind each impact, until bounces have come to their end.
+        let (mut left, mut speed, mut time) = (size, G * fall, fall);
+        let mut place = velocity.map(|v| v * fall);
+        let now = |left: f64| [0, 1].map(|i| velocity[i] - 2.0 / 7.0 * (size - left) * along[i]);
+        while speed > 1e-12 {
+            left = (left - 3.5 * friction * (1.0 + e) * speed).max(0.0);
+            speed *= e;
+            let flight = 2.0 * speed / G;
+            place = [0, 1].map(|i| place[i] + now(left)[i] * flight);
+            time += flight;
+        }
+        let slides = left / (3.5 * friction * G);
+        let end: f64 = 1.5;
+        assert!(time + slides < end, "it rolls");
+        let (v, w) = (now(left), now(0.0));
+        let place = [0, 1].map(|i| place[i] + 0.5 * (v[i] + w[i]) * slides + w[i] * (end - time - slides));
+        for method in [
+            "{ kind = 'radau' }",
+            "{ kind = 'generalized-alpha', step = '4 ms' }",
+            "{ kind = 'hht', step = '4 ms', alpha = 0 }",
+        ] {
+            let text = format!(
+                "gravity = [0, 0, -{G}]\nintegrator = {method}\nrun = {{ duration = {end} }}\noutput = {{ step = 0.01 }}\n\
+                 [[body]]\nname = 'b'\nmass = 3\ninertia = {{ kind = 'sphere', radius = {radius} }}\nposition = [0, 0, {}]\n\
+                 velocity = [{}, {}, 0]\nspin = [{}, {}, 7]\n\
+                 [[contact]]\nname = 'k'\non = 'b'\nradius = {radius}\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\n\
+                 law = {{ kind = 'constraint', restitution = {e}, friction = {friction} }}\n",
+                radius + height,
+                velocity[0],
+                velocity[1],
+                spin[0],
+                spin[1]
+            );
+            let case = reading(&text, &[]);
+            let run = finished(&case);
+            let estimate = case.estimate_errors(&run, Effort::Full, &mut |_| ControlFlow::Continue(()));
+            assert!(run.warnings.iter().any(|w| w.contains("friction in space")), "{:?}", run.warnings);
+            let exact = [place[0], place[1], -w[1] / radius, w[0] / radius, 7.0];
+            let columns = ["b.position.x", "b.position.y", "b.spin.x", "b.spin.y", "b.spin.z"];
+            for (column, exact) in columns.into_iter().zip(exact) {
+                let found = *run.trajectory.column(column).unwrap().last().unwrap();
+                let stated = estimate.columns.iter().find(|error| error.column == column).unwrap().last;
+                let off = (found - exact).abs();
+                assert!(
+                    off <= stated + 1e-9 && stated < 3e-3 * exact.abs().max(1.0),
+                    "{method} {height} {e}, {column}: {found}, {exact}: {off:e}, {stated:e}"
+                );
+            }
         }
     }
 }

@@ -256,10 +256,6 @@ const REFUSED: &[(&str, &[&str])] = &[
     (STARTS, &["drag/vibration"]),
     ("the state is one of another model", &["steady_rotation/restart"]),
     ("which the equilibrium of a system in space leaves out", &["initial_static"]),
-    (
-        "friction of a rigid contact in space has a direction of its own at every time",
-        &["contact_friction", "contact_friction/sticks", "contact_friction/radau"],
-    ),
 ];
 
 /// What differs: cases, column, and why.

@@ -385,7 +385,8 @@ impl ImpactMap {
                 RowLaw::Slip { .. } => Mode::SlipBackward,
                 RowLaw::Friction { coefficient, normal } => {
                     let limit = coefficient * forces[normal];
-                    let of_row = |row: usize| part.rows.iter().position(|i| *i == row).map_or(0.0, |k| forces[k]);
+                    let of_row =
+                        |row: usize| part.rows.iter().position(|i| *i == row).map_or(0.0, |k| forces[k]);
                     let size = self.along_disc(part.rows[normal], of_row);
                     if size < limit * (1.0 - STICKING) || limit == 0.0 {
                         Mode::Closed

@@ -128,7 +128,8 @@ impl Variant {
     /// nonsmooth method, steps near contacts are half as long too: they were its steps.
     pub(super) fn more_accurate(&self, run: &Record) -> Variant {
         let longest = longest_step(run).map(|longest| SHORTER * longest).or(self.plan.longest_step);
-        let followed = |warning: &Warning| matches!(warning, Warning::Chatter { .. } | Warning::Rubbing { .. });
+        let followed =
+            |warning: &Warning| matches!(warning, Warning::Chatter { .. } | Warning::Rubbing { .. });
         let part = if run.warnings.iter().any(followed) { SHORTER } else { 1.0 };
         let contact_step = self.plan.contact_step.map(|step| part * step);
         let plan = Plan { longest_step: longest, contact_step, ..self.plan.clone() };

@@ -214,7 +214,8 @@ impl<'a> Recorder<'a> {
         let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
         let unsettled =
             self.unsettled.map(|(steps, largest, time)| Warning::Unsettled { steps, largest, time });
-        let of_contacts = stepped_over.into_iter().chain(chatter).chain(rubbing).chain(grinds).chain(unsettled);
+        let of_contacts =
+            stepped_over.into_iter().chain(chatter).chain(rubbing).chain(grinds).chain(unsettled);
         gain.or(doubtful).into_iter().chain(of_contacts).chain(coarse).collect()
     }
 

@@ -8,6 +8,8 @@
 //! Steps begin short and are doubled, for what is fast in a burst is dissipated first, and halved where they do not converge. What dampers take in them of vibrations that
 //! they do not resolve follows from the [balance of energy](super::super::energy_balance), and is shown with the burst.
 //!
+//! So are rigid contacts with friction in space, which [rub](super::rubbing): while one of them is closed.
+//!
 //! The run comes back to its own method when no contact has opened or closed for so many steps, twice as many each time; where it cannot, for rows of
 //! closed contacts depend on each other, it goes on with nonsmooth steps.
 
@@ -16,7 +18,7 @@ use super::contacts::Contacts;
 use super::segment::Segment;
 use super::{Burst, Ending, Event, EventKind, Leg, Observer, Plan, Run, RunError};
 use crate::integrator::{Integration, Integrator, NonsmoothAlpha, StepError};
-use crate::system::{State, System};
+use crate::system::{Mode, Set, State, System};
 
 /// Spectral radius of the nonsmooth method at infinite frequency.
 const SPECTRAL_RADIUS: f64 = 0.8;
@@ -27,6 +29,17 @@ const FIRST_PART: f64 = 0.125;
 const HALVINGS: u32 = 12;
 
 impl Run {
+    /// Leaves the contacts of `state` to a burst, if one of them rubs: its method opens all.
+    pub(super) fn leave_rubbing(&mut self, system: &dyn System, state: &mut State) {
+        if !self.rubbing.is_on(state) {
+            return;
+        }
+        self.bursts.due = Some(0.0);
+        for (i, _) in system.rows().iter().enumerate().filter(|(_, set)| **set != Set::Free) {
+            (state.mode[i], state.lambda[i]) = (Mode::Open, 0.0);
+        }
+    }
+
     /// Follows contacts that chatter from `state` until they have come to rest, or to the end of the run. `mean` is the time between their events, 0 for contacts that
     /// [rub](super::rubbing) and are followed until they are open.
     pub(super) fn burst(

@@ -3,8 +3,7 @@
 //! The friction of such a contact is opposite to its sliding, whose direction is another one at every time and none where it ends: events do not find that. The way
 //! to the contact, its impact and the way behind it have a method's own steps; while such a contact is closed, the steps of a [burst](super::burst) resolve it.
 
-use super::Run;
-use crate::system::{Mode, Set, State, System};
+use crate::system::{Mode, Set, State};
 
 /// The rows of the normal forces of such contacts.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,18 +26,5 @@ impl Rubbing {
     /// Whether one of them is closed.
     pub(super) fn is_on(&self, state: &State) -> bool {
         self.0.iter().any(|row| state.mode[*row] != Mode::Open)
-    }
-}
-
-impl Run {
-    /// Leaves the contacts of `state` to the steps of a burst, if one of them rubs.
-    pub(super) fn leave_rubbing(&mut self, system: &dyn System, state: &mut State) {
-        if !self.rubbing.is_on(state) {
-            return;
-        }
-        self.bursts.due = Some(0.0);
-        for (i, _) in system.rows().iter().enumerate().filter(|(_, set)| **set != Set::Free) {
-            (state.mode[i], state.lambda[i]) = (Mode::Open, 0.0);
-        }
     }
 }
