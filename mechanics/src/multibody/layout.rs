@@ -12,8 +12,10 @@
 //! *Rigid Body Dynamics Algorithms*, chapter 7, doi 10.1007/978-1-4899-7560-7).
 //!
 //! A joint that closes a loop has its multipliers in the border. A body that couples parts far from each other goes to the
-//! border too, with the multipliers of the joint inside it, where that is cheaper.
+//! border too, with the multipliers of the joint inside it, where that is cheaper. A net has too many loops for a border: bodies and multipliers then stand in
+//! the order of Cuthill and McKee ([`net`]) and rows are exchanged, where that takes fewer multiplications.
 
+use super::net;
 use crate::linalg::Structure;
 
 /// A coupling of two nodes, or of one with the ground, with a number of rows of constraints.
@@ -48,13 +50,13 @@ pub(super) struct Layout {
 pub(super) fn layout(sizes: &[usize], bodies: usize, links: &[Link]) -> Layout {
     let tree = Tree::new(sizes.len(), links);
     let mut cut = vec![false; sizes.len()];
-    let mut plan = Plan::new((sizes, bodies), links, &tree, &cut);
+    let mut plan = Plan::of_tree((sizes, bodies), links, &tree, &cut);
     // Bodies at the ends of the widest coupling are tried in the border, as long as it pays.
     while let Some([a, b]) = plan.widest {
         let tried = [a, b].map(|node| {
             let mut cut = cut.clone();
             cut[node] = true;
-            (Plan::new((sizes, bodies), links, &tree, &cut), cut)
+            (Plan::of_tree((sizes, bodies), links, &tree, &cut), cut)
         });
         let [first, second] = tried;
         let (best, chosen) = if first.0.cost(1) <= second.0.cost(1) { first } else { second };
@@ -62,6 +64,10 @@ pub(super) fn layout(sizes: &[usize], bodies: usize, links: &[Link]) -> Layout {
             break;
         }
         (plan, cut) = (best, chosen);
+    }
+    let net = Plan::of_net((sizes, bodies), links);
+    if net.cost(1) < plan.cost(1) {
+        plan = net;
     }
     let structures = [0, 1, 2].map(|k| plan.structure(k));
     Layout { first: plan.first, in_tree: tree.links, structures }
@@ -146,38 +152,82 @@ impl Tree {
     }
 }
 
+/// What stands in a matrix at one place after the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Item {
+    /// The velocities of a node.
+    Node(usize),
+    /// The multipliers of a link.
+    Rows(usize),
+}
+
 /// A structure that is tried.
 struct Plan<'a> {
     sizes: &'a [usize],
     links: &'a [Link],
-    /// Nodes in their order, those of the border last, and how many are in the band.
-    order: Vec<usize>,
+    /// What stands in the matrix in its order, that of the border last, and how many items are in the band.
+    items: Vec<Item>,
     in_band: usize,
-    /// The link whose rows follow each node in the band.
-    follows: Vec<Option<usize>>,
     first: Vec<usize>,
     /// The two nodes of the widest coupling in the band.
     widest: Option<[usize; 2]>,
+    /// Whether pivots of multipliers stand before the bodies that they couple, so that rows are exchanged.
+    exchanges: bool,
 }
 
 impl<'a> Plan<'a> {
-    fn new((sizes, bodies): (&'a [usize], usize), links: &'a [Link], tree: &Tree, cut: &[bool]) -> Plan<'a> {
-        let mut order: Vec<usize> = tree.order.iter().copied().filter(|node| !cut[*node]).collect();
-        let in_band = order.len();
-        order.extend(tree.order.iter().copied().filter(|node| cut[*node]));
-        let follows = (0..sizes.len()).map(|node| tree.inboard[node].filter(|_| !cut[node])).collect();
+    /// The order of a tree, without the nodes that are cut out of its band.
+    fn of_tree(sizes: (&'a [usize], usize), links: &'a [Link], tree: &Tree, cut: &[bool]) -> Plan<'a> {
+        let mut items = Vec::with_capacity(sizes.0.len() + links.len());
+        let mut inside = vec![false; links.len()];
+        for &node in tree.order.iter().filter(|node| !cut[**node]) {
+            items.push(Item::Node(node));
+            if let Some(link) = tree.inboard[node] {
+                items.push(Item::Rows(link));
+                inside[link] = true;
+            }
+        }
+        let in_band = items.len();
+        items.extend(tree.order.iter().filter(|node| cut[**node]).map(|node| Item::Node(*node)));
+        items.extend((0..links.len()).filter(|link| !inside[*link]).map(Item::Rows));
+        Plan::new(sizes, links, (items, in_band), false)
+    }
+
+    /// The [order of a net](net::order), all in the band.
+    fn of_net(sizes: (&'a [usize], usize), links: &'a [Link]) -> Plan<'a> {
+        let nodes = sizes.0.len();
+        let pairs = links.iter().enumerate().flat_map(|(k, link)| {
+            let [a, b] = link.nodes;
+            [(a, b), (a, Some(nodes + k)), (b, Some(nodes + k))]
+        });
+        let pairs = pairs.filter_map(|(a, b)| Some([a?, b?]));
+        let of = |i: usize| if i < nodes { Item::Node(i) } else { Item::Rows(i - nodes) };
+        let items: Vec<Item> = net::order(nodes + links.len(), pairs).into_iter().map(of).collect();
+        let in_band = items.len();
+        Plan::new(sizes, links, (items, in_band), true)
+    }
+
+    fn new(
+        (sizes, bodies): (&'a [usize], usize),
+        links: &'a [Link],
+        (items, in_band): (Vec<Item>, usize),
+        exchanges: bool,
+    ) -> Plan<'a> {
+        let node = |item: &Item| match item {
+            Item::Node(node) => Some(*node),
+            Item::Rows(_) => None,
+        };
         let mut first = vec![0; sizes.len()];
         let mut next = 0;
-        for node in order.iter().copied().filter(|node| *node < bodies).chain(bodies..sizes.len()) {
+        for node in items.iter().filter_map(node).filter(|node| *node < bodies).chain(bodies..sizes.len()) {
             first[node] = next;
             next += sizes[node];
         }
-        let mut plan = Plan { sizes, links, order, in_band, follows, first, widest: None };
-        let (nodes, _) = plan.places(1);
-        let far = |[a, b]: [usize; 2]| nodes[a].abs_diff(nodes[b]);
-        let band = &plan.order[..in_band];
         let mut inside = vec![false; sizes.len()];
-        band.iter().for_each(|node| inside[*node] = true);
+        items[..in_band].iter().filter_map(node).for_each(|node| inside[node] = true);
+        let mut plan = Plan { sizes, links, items, in_band, first, widest: None, exchanges };
+        let (nodes, ..) = plan.places(1);
+        let far = |[a, b]: [usize; 2]| nodes[a].abs_diff(nodes[b]);
         let pairs = links.iter().filter_map(|link| match link.nodes {
             [Some(a), Some(b)] if a != b && inside[a] && inside[b] => Some([a, b]),
             _ => None,
@@ -186,34 +236,33 @@ impl<'a> Plan<'a> {
         plan
     }
 
-    /// First place of each node and of the rows of each link, with `multipliers` a row.
-    fn places(&self, multipliers: usize) -> (Vec<usize>, Vec<usize>) {
-        let (mut nodes, mut rows) = (vec![0; self.sizes.len()], vec![usize::MAX; self.links.len()]);
-        let mut next = 0;
-        for (k, &node) in self.order.iter().enumerate() {
-            nodes[node] = next;
-            next += self.sizes[node];
-            if let Some(link) = self.follows[node].filter(|_| k < self.in_band) {
-                rows[link] = next;
-                next += multipliers * self.links[link].rows;
+    /// First place of each node and of the rows of each link, with `multipliers` a row, and that of the border.
+    fn places(&self, multipliers: usize) -> (Vec<usize>, Vec<usize>, usize) {
+        let (mut nodes, mut rows) = (vec![0; self.sizes.len()], vec![0; self.links.len()]);
+        let (mut next, mut border) = (0, 0);
+        for (k, item) in self.items.iter().enumerate() {
+            match *item {
+                Item::Node(node) => {
+                    nodes[node] = next;
+                    next += self.sizes[node];
+                }
+                Item::Rows(link) => {
+                    rows[link] = next;
+                    next += multipliers * self.links[link].rows;
+                }
+            }
+            if k < self.in_band {
+                border = next;
             }
         }
-        for (link, place) in rows.iter_mut().enumerate().filter(|(_, place)| **place == usize::MAX) {
-            *place = next;
-            next += multipliers * self.links[link].rows;
-        }
-        (nodes, rows)
+        (nodes, rows, border)
     }
 
     /// Order, half-bandwidth and border.
     fn band(&self, multipliers: usize) -> [usize; 3] {
-        let (nodes, rows) = self.places(multipliers);
+        let (nodes, rows, order) = self.places(multipliers);
         let total: usize =
             self.sizes.iter().sum::<usize>() + multipliers * self.links.iter().map(|l| l.rows).sum::<usize>();
-        let order = self.order.get(self.in_band).map_or_else(
-            || rows_outside(&self.follows, self.links, &rows).unwrap_or(total),
-            |node| nodes[*node],
-        );
         let mut half = 0;
         let mut join = |a: [usize; 2], b: [usize; 2]| {
             if a[0] < order && b[0] < order && a[1] > a[0] && b[1] > b[0] {
@@ -253,7 +302,7 @@ impl<'a> Plan<'a> {
         if !worthwhile {
             return Structure::dense(whole);
         }
-        let (nodes, rows) = self.places(multipliers);
+        let (nodes, rows, _) = self.places(multipliers);
         if multipliers == 0 && nodes == self.first {
             return band;
         }
@@ -270,22 +319,16 @@ impl<'a> Plan<'a> {
         }
         // Multipliers among the last rows are exchanged within the band.
         let velocities: usize = self.sizes.iter().sum();
-        let exchanges = places[velocities..].iter().any(|place| place + half + 1 < order);
+        let exchanges = self.exchanges || places[velocities..].iter().any(|place| place + half + 1 < order);
         Structure::ordered(places.into_iter().map(|place| place as u32).collect(), band, exchanges)
     }
 
-    /// Multiplications of a factorisation and a solution.
+    /// Multiplications of a factorisation and a solution; where rows are exchanged, the upper half of a band is twice as wide.
     fn cost(&self, multipliers: usize) -> f64 {
         let [order, half, border] = self.band(multipliers).map(|x| x as f64);
-        order * (half + border) * (half + border + 2.0) + border * border * border / 3.0
+        let wide = if self.exchanges { 2.0 * half } else { half };
+        order * (half + border) * (wide + border + 2.0) + border * border * border / 3.0
     }
-}
-
-/// First place of the rows that follow no node of the band.
-fn rows_outside(follows: &[Option<usize>], links: &[Link], rows: &[usize]) -> Option<usize> {
-    let mut inside = vec![false; links.len()];
-    follows.iter().flatten().for_each(|link| inside[*link] = true);
-    (0..links.len()).filter(|k| !inside[*k] && links[*k].rows > 0).map(|k| rows[k]).min()
 }
 
 #[cfg(test)]

@@ -65,6 +65,7 @@ mod line_load;
 mod marker;
 mod model;
 mod mounted;
+mod net;
 mod observed;
 mod on_axis;
 mod reason;
