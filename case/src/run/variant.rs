@@ -116,10 +116,13 @@ impl Reading {
                 changes.extend(other(&Controlled::max_step, plan.longest_step, own.plan.longest_step));
                 changes.extend(other(&CONTACT_STEP, plan.contact_step, own.plan.contact_step));
             }
-            None => changes.push(INTEGRATOR.change_kind(
-                "radau",
-                vec![Controlled::tolerance.to(relative), Controlled::absolute_tolerance.to(absolute)],
-            )),
+            None => {
+                let contact = plan.contact_step.map(|step| Controlled::contact_step.to(step));
+                let tolerances =
+                    [Controlled::tolerance.to(relative), Controlled::absolute_tolerance.to(absolute)];
+                changes
+                    .push(INTEGRATOR.change_kind("radau", tolerances.into_iter().chain(contact).collect()));
+            }
         }
         if plan.break_steps != own.plan.break_steps {
             changes.push(INTEGRATOR.change(Controlled::break_steps.to(plan.break_steps as usize)));

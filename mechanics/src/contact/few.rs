@@ -61,6 +61,12 @@ impl Few {
         self.problem.keep_new(&self.unit);
     }
 
+    /// Whether rows follow from others to this part of their W.
+    pub fn are_dependent(&mut self, w: &[f64], m: usize, part: f64) -> bool {
+        self.factor.set(w, m, part);
+        self.factor.rank < m
+    }
+
     /// Solves u = b + WΛ for Λ, in place: from the values it has where W is regular; `w` holds W by rows. Gives the number of sweeps, or of iterations.
     ///
     /// # Errors
@@ -81,7 +87,7 @@ impl Few {
         if contacts < 2 {
             return cone::relax(laws, (w, b), lambda, cone::SWEEPS, &mut self.earlier);
         }
-        self.factor.set(w, m);
+        self.factor.set(w, m, ROUNDING * m as f64 * f64::EPSILON);
         if self.factor.rank == m
             && let Ok(sweeps) = cone::relax(laws, (w, b), lambda, SOON, &mut self.earlier)
         {
@@ -141,13 +147,13 @@ struct Factor {
 }
 
 impl Factor {
-    fn set(&mut self, w: &[f64], m: usize) {
+    /// Until `least` of the W of each row is left.
+    fn set(&mut self, w: &[f64], m: usize, least: f64) {
         let Factor { entries, left, rank } = self;
         entries.clear();
         entries.resize(m * m, 0.0);
         left.clear();
         left.extend((0..m).map(|i| w[i * m + i]));
-        let least = ROUNDING * m as f64 * f64::EPSILON;
         *rank = 0;
         while *rank < m {
             // Rows differ in units: what is left is measured by what there was.

@@ -28,6 +28,8 @@ const RESTING: f64 = 1e-12;
 const STICKING: f64 = 1e-9;
 /// W over the inverse of the largest mass above which a point has no mass of its own.
 const MASSLESS: f64 = 1e6;
+/// Part of its W by which a row that is held must differ from what follows from the others.
+const DEPENDENT: f64 = 1e-10;
 /// Weight of K beside a singular M, in units of the ratio of their largest entries.
 const REGULARIZATION: f64 = 1e-12;
 
@@ -140,6 +142,8 @@ pub struct ImpactMap {
     /// For many rows, whose products have room in M.
     many: Option<Augmented>,
     few: Few,
+    /// Whether rows that [`ImpactMap::settle`] left closed follow from others: more are held than there are motions.
+    dependent: bool,
 }
 
 /// The rows that take part in a problem, with their laws.
@@ -167,6 +171,7 @@ impl ImpactMap {
             inertia: 0.0,
             many: (m > FEW && system.contacts_are_local()).then(Augmented::default),
             few: Few::new(0),
+            dependent: false,
         }
     }
 
@@ -406,7 +411,18 @@ impl ImpactMap {
                 state.mode[i] = Mode::Open;
             }
         }
+        let held: Vec<usize> =
+            (0..part.rows.len()).filter(|k| state.mode[part.rows[*k]] == Mode::Closed).collect();
+        let m = part.rows.len();
+        let entries: Vec<f64> =
+            held.iter().flat_map(|k| held.iter().map(move |l| k * m + l)).map(|at| w[at]).collect();
+        self.dependent = held.len() > n || self.few.are_dependent(&entries, held.len(), DEPENDENT);
         Ok(())
+    }
+
+    /// Whether rows that were left closed follow from others: they have no forces of their own.
+    pub(crate) fn are_dependent(&self) -> bool {
+        self.dependent
     }
 
     /// Λ of u = b + W Λ, from zero.

@@ -43,7 +43,7 @@ use super::pair::{ColumnError, Pair, vanishes};
 use super::trust::{Parting, parting};
 use super::variant::SHORTER;
 use super::{Refinable, Variant};
-use crate::analysis::recording::{Record, Trajectory, Watch};
+use crate::analysis::recording::{Record, Trajectory, Warning, Watch};
 use crate::analysis::transient::{Ending, Plan, RunError};
 use crate::system::{Channel, Role, State};
 use std::ops::ControlFlow;
@@ -298,14 +298,26 @@ fn finer_run<P: Refinable>(
 ) -> Result<(Variant, Record), P::Fault> {
     let mut finer = refined(problem, variant, run);
     let mut fine = until_impact(problem, &finer, watch)?;
-    if variant.fixed_step().is_none() {
+    let Some(step) = variant.fixed_step() else {
         return Ok((finer, fine));
+    };
+    // Where the companion leaves contacts to nonsmooth steps, those are shorter than the steps of the run.
+    let mut near = rubbing(run).unwrap_or_else(|| variant.plan.contact_step.unwrap_or(step));
+    let mut by = |variant: Variant| {
+        near *= SHORTER * SHORTER;
+        Variant { plan: Plan { contact_step: Some(near), ..variant.plan.clone() }, ..variant }
+    };
+    let rubs = rubbing(&fine).is_some();
+    if rubs {
+        finer = by(finer);
+        fine = until_impact(problem, &finer, watch)?;
     }
     for rung in &LADDER[1..] {
         if fine.ending != Ending::Finished {
             break;
         }
         let next = finer.by_radau(*rung).with_shorter_parts();
+        let next = if rubs { by(next) } else { next };
         let Ok(finest) = until_impact(problem, &next, watch) else { break };
         let settled = settled(run, &fine, &finest);
         (finer, fine) = (next, finest);
@@ -314,6 +326,14 @@ fn finer_run<P: Refinable>(
         }
     }
     Ok((finer, fine))
+}
+
+/// The longest nonsmooth step to which contacts that rub were left \[s\].
+fn rubbing(run: &Record) -> Option<f64> {
+    run.warnings.iter().find_map(|warning| match warning {
+        Warning::Rubbing { step, .. } => Some(*step),
+        _ => None,
+    })
 }
 
 /// The variant with twice the functions and a far more accurate integration.

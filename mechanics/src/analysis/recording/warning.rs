@@ -65,10 +65,10 @@ pub enum Warning {
         /// What dampers have taken less than by their power \[J\].
         less: f64,
     },
-    /// Rigid contacts rubbed in space, and were followed by steps of a nonsmooth method.
+    /// Rigid contacts rubbed in space, or were more than motions that they hold, and were followed by steps of a nonsmooth method.
     #[error(
-        "rigid contacts with friction in space are closed for {duration:.4} s, from t = {begin:.6} s on: meanwhile steps of `nonsmooth-generalized-alpha` of at most \
-         {step:.2e} s follow the direction of sliding, and take the place of the steps of this method and of its tolerance"
+        "rigid contacts with friction in space, or more of them than motions that they hold, are closed for {duration:.4} s, from t = {begin:.6} s on: meanwhile steps of \
+         `nonsmooth-generalized-alpha` of at most {step:.2e} s take the place of the steps of this method and of its tolerance"
     )]
     Rubbing {
         /// When the first such contact closed \[s\].

@@ -8,7 +8,8 @@
 //! Steps begin short and are doubled, for what is fast in a burst is dissipated first, and halved where they do not converge. What dampers take in them of vibrations that
 //! they do not resolve follows from the [balance of energy](super::super::energy_balance), and is shown with the burst.
 //!
-//! So are rigid contacts with friction in space, which [rub](super::rubbing): while one of them is closed.
+//! So are rigid contacts with friction in space, which [rub](super::rubbing), and more contacts than there are motions for them to hold, as the four feet of a box: while they are
+//! closed.
 //!
 //! The run comes back to its own method when no contact has opened or closed for so many steps, twice as many each time; where it cannot, for rows of
 //! closed contacts depend on each other, it goes on with nonsmooth steps.
@@ -29,9 +30,9 @@ const FIRST_PART: f64 = 0.125;
 const HALVINGS: u32 = 12;
 
 impl Run {
-    /// Leaves the contacts of `state` to a burst, if one of them rubs: its method opens all.
-    pub(super) fn leave_rubbing(&mut self, system: &dyn System, state: &mut State) {
-        if !self.rubbing.is_on(state) {
+    /// Leaves the contacts of `state` to a burst, if one of them rubs or more are closed than motions that they hold: its method opens all.
+    pub(super) fn leave_contacts(&mut self, system: &dyn System, state: &mut State) {
+        if !self.rubbing.is_on(state) && !self.contacts.as_ref().is_some_and(Contacts::are_dependent) {
             return;
         }
         self.bursts.due = Some(0.0);
@@ -135,6 +136,10 @@ impl Run {
                 None => false,
             };
             if held && self.rubbing.is_on(&settled) {
+                continue;
+            }
+            if held && contacts.as_ref().is_some_and(Contacts::are_dependent) {
+                self.bursts.hold = self.bursts.hold.saturating_mul(2);
                 continue;
             }
             if held && settled.is_finite() && integrator.restart(system, &mut settled).is_ok() {

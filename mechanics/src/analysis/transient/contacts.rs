@@ -79,6 +79,11 @@ impl Contacts {
         settled.map_err(|cause| RunError::Contact { time: state.t, cause })
     }
 
+    /// Whether more contacts were left closed than motions that they hold.
+    pub(super) fn are_dependent(&self) -> bool {
+        !self.resolved && self.map.are_dependent()
+    }
+
     /// The impact at `state` with the impulse `p`: without restitution where it is slow.
     pub(super) fn strike(
         &mut self,

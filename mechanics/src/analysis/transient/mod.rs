@@ -126,7 +126,7 @@ struct Run {
 enum Leg {
     /// The run is.
     Ended(Ending),
-    /// Contacts chatter, or rub in space.
+    /// Contacts chatter, or are left to a nonsmooth method.
     Chatters,
     /// The contacts of a burst have come to rest.
     Settled,
@@ -169,7 +169,7 @@ impl Run {
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
             if !contacts.resolved {
-                self.leave_rubbing(system, state);
+                self.leave_contacts(system, state);
             }
         }
         observer.begin(integrator.resolves_contacts());
@@ -548,7 +548,7 @@ impl Run {
         }
         system.pass(state).map_err(|reason| RunError::Ended { time: state.t, reason })?;
         if !integrator.resolves_contacts() {
-            self.leave_rubbing(system, state);
+            self.leave_contacts(system, state);
         }
         integrator.restart(system, state).map_err(|error| failed(system, state, error))?;
         if struck {
