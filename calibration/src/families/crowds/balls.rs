@@ -76,7 +76,8 @@ impl Ball {
         let mut values = Vec::new();
         for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
             // Impacts are found, and directions known, to a part of 1e-9 of the motion.
-            let (v, w) = (size(self.velocity), size(self.spin));
+            let v = size(self.velocity) + self.radius * size(self.spin);
+            let w = v / self.radius;
             let missed = missed + 1e-9 * (self.radius + size(self.position));
             values.push(about(&format!("b{k}.position.{axis}"), "final", self.position[i], missed));
             values.push(about(&format!("b{k}.velocity.{axis}"), "final", self.velocity[i], 1e-9 * v));
@@ -399,7 +400,7 @@ pub(super) fn elastic_line(random: &mut Random) -> Crowd {
     let heaviest = before.masses.iter().fold(0.0_f64, |a, b| a.max(*b));
     // Hertz: a contact of two bodies lasts 3.2145 (m²/(K² v))^⅕, with their reduced mass.
     let stiffness = 0.5 * heaviest * (3.2145 / lasts).powf(2.5) / struck.slowest.sqrt();
-    let method = smooth_method(random, lasts / 15.0);
+    let method = smooth_method(random, lasts / 15.0, duration);
     let mut case = Drawn { length: 1.0, ..Drawn::default() };
     begin(&mut case, [0.0; 3], &method, duration);
     let law = if e < 1.0 {

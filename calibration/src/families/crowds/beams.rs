@@ -94,7 +94,12 @@ pub(super) fn flat(random: &mut Random) -> Crowd {
     let mut values = Vec::new();
     for (i, axis) in ["x", "y", "z"].into_iter().enumerate() {
         values.push(about(&format!("rod.tip.position.{axis}"), "final", tip[i], missed));
-        values.push(exactly(&format!("momentum.{axis}"), "final", mass * after[i]));
+        values.push(about(
+            &format!("momentum.{axis}"),
+            "final",
+            mass * after[i],
+            1e-9 * mass * (down + speed),
+        ));
     }
     let energy = 0.5 * mass * (down * down + speed * speed);
     let lost = energy - 0.5 * mass * size(after).powi(2);
@@ -159,7 +164,7 @@ pub(super) fn arm(random: &mut Random) -> Crowd {
     let step = duration / random.scale(2000.0..5000.0);
     let method = stepping(random, step);
     let entered = entered(rod.length, &method, (3.0 * g * (angle + 1e-3) * rod.length).sqrt(), g);
-    let integrator = if force { smooth_method(random, step) } else { method.text };
+    let integrator = if force { smooth_method(random, step, duration) } else { method.text };
     let mut case = Drawn { length: rod.length, ..Drawn::default() };
     add!(case, "gravity = [0, -{g}]\nintegrator = {integrator}\nrun = {{ duration = {duration:e} }}");
     add!(case, "output = {{ step = {:e} }}\nbeam = {{ length = {} }}", duration / 100.0, rod.length);
@@ -196,7 +201,7 @@ pub(super) fn soft(random: &mut Random) -> Crowd {
     let stiffness = 0.5 * mass * (3.2145 / lasts).powf(2.5) / down.sqrt() / rod.length;
     let height = down * lasts * random.between(0.1..1.0);
     let duration = 2.0 * height / down + 4.0 * lasts / e;
-    let method = smooth_method(random, lasts / 300.0);
+    let method = smooth_method(random, lasts / 300.0, duration);
     let mut case = Drawn { length: rod.length, ..Drawn::default() };
     begin(&mut case, [0.0; 3], &method, duration);
     let further = format!("velocity = [0, 0, -{down}]");

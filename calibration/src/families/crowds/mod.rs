@@ -53,6 +53,9 @@ pub(super) const LONGEST: Duration = Duration::from_secs(60);
 /// Part of the size of a model by which a rigid contact may enter its obstacle.
 const ENTERED: f64 = 1e-6;
 
+/// Most steps of equal size of a case.
+const MOST_STEPS: f64 = 10_000.0;
+
 /// A family: its name, and how a case of it is drawn.
 type Family = (&'static str, fn(&mut Random) -> Crowd);
 
@@ -120,11 +123,13 @@ fn stepping(random: &mut Random, step: f64) -> Method {
     }
 }
 
-/// A method for a continuous force, with steps of that size where it has any.
-fn smooth_method(random: &mut Random, step: f64) -> String {
+/// A method for a continuous force, with steps of that size where it has any; none of so many steps that it takes long by what it was asked.
+fn smooth_method(random: &mut Random, step: f64, duration: f64) -> String {
     let kinds = ["radau", "radau", "generalized-alpha", "hht", "nonsmooth-generalized-alpha", "moreau-jean"];
     match random.pick(&kinds) {
-        "radau" => format!("{{ kind = 'radau', tolerance = {:e} }}", random.scale(1e-8..1e-4)),
+        kind if kind == "radau" || duration > MOST_STEPS * step => {
+            format!("{{ kind = 'radau', tolerance = {:e} }}", random.scale(1e-8..1e-4))
+        }
         kind => format!("{{ kind = '{kind}', step = {step:e} }}"),
     }
 }

@@ -4,10 +4,10 @@
 //! particle, as long as the centre of pressure stays among the points.
 
 use super::{
-    Crowd, Held, Sum, about, begin, count, cross, dot, entered, known, method, plus, smooth_method, some,
-    weight,
+    Crowd, Held, Sum, about, begin, count, cross, dot, entered, known, method, plus, size, smooth_method,
+    some, weight,
 };
-use crate::families::{Answer, Posed, Relation, exactly};
+use crate::families::{Answer, Known, Posed, Relation, exactly};
 use crate::random::Random;
 use crate::{Drawn, add};
 use std::f64::consts::{PI, TAU};
@@ -95,7 +95,8 @@ impl Plate {
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const NAMES: [&str; 3] = ["x", "y", "z"];
 
-fn places(of: &str, part: &'static str, value: [f64; 3], within: f64) -> Vec<crate::families::Known> {
+fn places(of: &str, part: &'static str, value: [f64; 3], within: f64) -> Vec<Known> {
+    let within = within + 1e-9 * size(value);
     let one = |i: usize| about(&format!("b.{of}.{}", NAMES[i]), part, value[i], within);
     (0..3).map(one).collect()
 }
@@ -312,7 +313,7 @@ pub(super) fn elastic(random: &mut Random) -> Crowd {
     let (first, speed) = ((2.0 * height / g).sqrt(), (2.0 * g * height).sqrt());
     let lasts = 4.0 * deepest / speed;
     let duration = (2.0 * first + lasts) * random.between(1.0..3.0);
-    let method = smooth_method(random, lasts / 200.0);
+    let method = smooth_method(random, lasts / 200.0, duration);
     let mut case = Drawn { length: 1.0, ..Drawn::default() };
     begin(&mut case, [0.0, 0.0, -g], &method, duration);
     let law = format!("{{ kind = 'hertz', stiffness = {stiffness:e}, exponent = {power} }}");
@@ -370,7 +371,7 @@ pub(super) fn damped(random: &mut Random) -> Crowd {
     let back = rebound(law, e);
     let lasts = 4.0 * deepest / speed;
     let duration = height / speed + (lasts + height / speed) / back.max(0.1) * random.between(1.5..3.0);
-    let method = smooth_method(random, lasts / 400.0);
+    let method = smooth_method(random, lasts / 400.0, duration);
     let mut case = Drawn { length: 1.0, ..Drawn::default() };
     begin(&mut case, [0.0; 3], &method, duration);
     let text =
@@ -418,7 +419,7 @@ pub(super) fn feet(random: &mut Random) -> Crowd {
     let duration = stops * random.between(0.3..1.2);
     let one = method(random, duration, 400.0..2000.0);
     let kind = random.pick(&["moreau-jean", "nonsmooth-generalized-alpha"]);
-    let other = format!("{{ kind = '{kind}', step = {:e} }}", duration / 3000.0);
+    let other = format!("{{ kind = '{kind}', step = {:e} }}", duration / 1500.0);
     let entered = entered(1.0, &one, 0.0, g);
     let [case, other] = [one.text, other].map(|integrator| {
         let mut case = Drawn { length: 1.0, ..Drawn::default() };
