@@ -128,7 +128,7 @@ fn smooth_method(random: &mut Random, step: f64, duration: f64) -> String {
     let kinds = ["radau", "radau", "generalized-alpha", "hht", "nonsmooth-generalized-alpha", "moreau-jean"];
     match random.pick(&kinds) {
         kind if kind == "radau" || duration > MOST_STEPS * step => {
-            format!("{{ kind = 'radau', tolerance = {:e} }}", random.scale(1e-8..1e-4))
+            format!("{{ kind = 'radau', tolerance = {:e} }}", random.scale(1e-10..1e-6))
         }
         kind => format!("{{ kind = '{kind}', step = {step:e} }}"),
     }

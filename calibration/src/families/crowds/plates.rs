@@ -180,7 +180,9 @@ pub(super) fn incline(random: &mut Random) -> Crowd {
     let mut values = places("position", "final", plus(plate.centre(0.0), way, down), 0.0);
     values.extend(places("velocity", "final", down.map(|x| x * last), 0.0));
     let normal = plate.mass * g * slope.cos();
-    let slid = about("energy.contact_loss", "final", friction * normal * way, 0.0);
+    // A first step from rest falls before it presses.
+    let first = 1e-4 * plate.mass * g * plate.size[0];
+    let slid = about("energy.contact_loss", "final", friction * normal * way, first);
     values.push(slid);
     let energy =
         plate.mass * (0.5 * speed * speed + g * way * slope.sin()) + 1e-3 * plate.mass * g * plate.size[0];
