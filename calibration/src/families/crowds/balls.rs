@@ -326,6 +326,22 @@ impl Line {
         (all + further, struck)
     }
 
+    /// The same through fewer impacts, where some follow each other within a part of the time.
+    fn run_apart(&mut self, e: f64, most: usize, part: f64) -> (f64, Struck) {
+        let before = self.clone();
+        let (mut duration, mut struck) = self.run(e, most);
+        for fewer in [40, 20, 10, 6, 5] {
+            if struck.apart > part * duration {
+                break;
+            }
+            if fewer < struck.impacts {
+                self.clone_from(&before);
+                (duration, struck) = self.run(e, fewer);
+            }
+        }
+        (duration, struck)
+    }
+
     fn energy(&self) -> f64 {
         self.masses.iter().zip(&self.speeds).map(|(m, v)| 0.5 * m * v * v).sum()
     }
@@ -358,7 +374,7 @@ pub(super) fn line(random: &mut Random) -> Crowd {
     let e = if random.one_in(3) { 1.0 } else { random.between(0.2..1.0) };
     let before = line.clone();
     let most = line.places.len() * random.count(1..3);
-    let (duration, struck) = line.run(e, most);
+    let (duration, struck) = line.run_apart(e, most, 2e-4);
     // Impacts in one step are not one after the other: steps are shorter than what lies between.
     let step = (duration / 500.0).min(0.2 * struck.apart).max(duration / 20_000.0);
     let method = stepping(random, step);
@@ -387,15 +403,8 @@ pub(super) fn elastic_line(random: &mut Random) -> Crowd {
     let mut line = Line::draw(random);
     let e = if random.coin() { 1.0 } else { random.between(0.6..1.0) };
     let before = line.clone();
-    let (mut duration, mut struck) = line.run(e, before.places.len().min(20));
-    // Fewer, where some follow each other at once.
-    for most in [20, 10, 6, 5] {
-        if struck.apart > 1e-3 * duration || struck.impacts < most {
-            break;
-        }
-        line = before.clone();
-        (duration, struck) = line.run(e, most);
-    }
+    let most = line.places.len().min(20);
+    let (duration, struck) = line.run_apart(e, most, 1e-3);
     let lasts = (struck.apart / 20.0).min(duration / 100.0);
     let heaviest = before.masses.iter().fold(0.0_f64, |a, b| a.max(*b));
     // Hertz: a contact of two bodies lasts 3.2145 (m²/(K² v))^⅕, with their reduced mass.

@@ -186,7 +186,7 @@ pub(super) fn arm(random: &mut Random) -> Crowd {
         energy: 0.5 * mass * g * fall,
         entered: entered.filter(|_| !force),
     };
-    let values = vec![about("hub.angle", "final", -1e-3, 5e-3)];
+    let values = vec![about("hub.angle", "final", -1e-3, if force { 0.02 } else { 5e-3 })];
     known(case, values, held)
 }
 
