@@ -1,7 +1,7 @@
 //! Stated against true errors of cases at random: `cargo run --release -p flexion-calibration -- --cases 100 --seed 2`.
 
 use clap::Parser as _;
-use flexion_calibration::families::{self, Answer, pose};
+use flexion_calibration::families::{self, Answer, crowds, pose};
 use flexion_calibration::{Counts, Drawn, Ending, Outcome, draw, figure, judge, study};
 use serde_json::{Value, json};
 use std::io::{self, Write};
@@ -25,6 +25,9 @@ struct Arguments {
     /// Draw cases whose answer is known, by families, and hold them against it
     #[arg(long)]
     families: bool,
+    /// Draw cases of five to fifty contacts whose answer is known, by families, and hold them against it and the laws of contacts
+    #[arg(long, conflicts_with = "families")]
+    crowds: bool,
     /// Print the case of this number, and the files that it names, and run nothing
     #[arg(long, value_name = "N")]
     show: Option<u64>,
@@ -39,10 +42,14 @@ struct Arguments {
 fn main() -> io::Result<()> {
     let arguments = Arguments::parse();
     if let Some(number) = arguments.show {
-        if !arguments.families {
+        if !arguments.families && !arguments.crowds {
             return show(&draw(arguments.seed, number));
         }
-        let posed = pose(arguments.seed, number);
+        let posed = if arguments.crowds {
+            crowds::pose(arguments.seed, number).posed
+        } else {
+            pose(arguments.seed, number)
+        };
         show(&posed.case)?;
         return match &posed.answer {
             Answer::Other(other, relation) => {
@@ -55,7 +62,9 @@ fn main() -> io::Result<()> {
     std::fs::create_dir_all(&arguments.output)?;
     let numbers = arguments.first..arguments.first.saturating_add(arguments.cases);
     let outcomes = study(numbers, arguments.threads, &|number| {
-        let outcome = if arguments.families {
+        let outcome = if arguments.crowds {
+            crowds::judge(&crowds::pose(arguments.seed, number), number)
+        } else if arguments.families {
             families::judge(&pose(arguments.seed, number), number)
         } else {
             judge(&draw(arguments.seed, number), number)
@@ -75,7 +84,12 @@ fn main() -> io::Result<()> {
 fn progress(outcome: &Outcome) -> io::Result<()> {
     let mut out = io::stderr().lock();
     let warned = if outcome.warnings.is_empty() { "" } else { ", warned" };
-    writeln!(out, "{} {}: {}{warned}", outcome.number, outcome.subject, outcome.ending.name())?;
+    let Outcome { number, subject, ending, seconds, .. } = outcome;
+    let lasts = if *seconds > 1.0 { format!(", {seconds:.1} s") } else { String::new() };
+    writeln!(out, "{number} {subject}: {}{warned}{lasts}", ending.name())?;
+    for law in &outcome.broken {
+        writeln!(out, "  {law}")?;
+    }
     for v in outcome.silent().chain(outcome.wrong()) {
         writeln!(out, "  {} {} {:e} ± {:.0e} is off by {:.2e}", v.column, v.part, v.value, v.stated, v.off)?;
     }
@@ -123,13 +137,15 @@ fn write(arguments: &Arguments, outcomes: &[Outcome], counts: &Counts) -> io::Re
             Ending::Known => None,
             Ending::Unknown(why) | Ending::Failed(why) | Ending::Refused(why) => Some(why),
         };
-        json!({ "case": o.number, "of": o.subject, "ending": o.ending.name(), "why": why, "warnings": o.warnings })
+        json!({ "case": o.number, "of": o.subject, "ending": o.ending.name(), "why": why, "warnings": o.warnings,
+            "broken": o.broken, "seconds": o.seconds })
     };
     let table: Value = counts.rows().iter().map(|[what, count, asked]| json!([what, count, asked])).collect();
     let cases: Value = outcomes.iter().map(case).collect();
     let json = json!({
         "seed": arguments.seed, "first": arguments.first, "cases": outcomes.len(), "counts": table,
-        "silent": counts.silent, "wrong": counts.wrong, "outcomes": cases,
+        "silent": counts.silent, "wrong": counts.wrong,
+        "broken": counts.broken, "grinding": counts.grinding, "outcomes": cases,
     });
     std::fs::write(file("json"), format!("{json:#}\n"))
 }

@@ -17,6 +17,8 @@ const KNOWN: f64 = 0.3;
 const FAR: f64 = 10.0;
 /// Part of the largest value by which a case is wrong that says nothing.
 const WRONG: f64 = 1e-2;
+/// Wall time of a case of a few parts beyond which a run should have said so \[s\].
+const PATIENCE: f64 = 20.0;
 /// Smallest factor on an explicit step that is refused for its stability.
 const SHORTEST: f64 = 1e-6;
 
@@ -96,9 +98,31 @@ pub struct Outcome {
     pub warnings: Vec<String>,
     /// Its values.
     pub values: Vec<Compared>,
+    /// Laws of contacts that it does not keep, and by how much.
+    pub broken: Vec<String>,
+    /// Wall time of the run itself \[s\].
+    pub seconds: f64,
 }
 
 impl Outcome {
+    /// Nothing yet of a case.
+    pub(crate) fn of(number: u64, subject: &'static str) -> Outcome {
+        Outcome {
+            number,
+            subject,
+            ending: Ending::Known,
+            warnings: Vec::new(),
+            values: Vec::new(),
+            broken: Vec::new(),
+            seconds: 0.0,
+        }
+    }
+
+    /// Whether it takes long without a word.
+    pub fn grinds(&self) -> bool {
+        self.seconds > PATIENCE && self.warnings.is_empty()
+    }
+
     /// Values off by more than ten times what is stated, of a case without a warning.
     pub fn silent(&self) -> impl Iterator<Item = &Compared> {
         // Written so that NaN is counted.
@@ -141,13 +165,7 @@ pub(crate) fn run(reading: &Reading) -> Result<Run, Problems> {
 
 /// Runs a case as `flexion run` does, and more finely.
 pub fn judge(drawn: &Drawn, number: u64) -> Outcome {
-    let mut outcome = Outcome {
-        number,
-        subject: drawn.subject,
-        ending: Ending::Known,
-        warnings: Vec::new(),
-        values: Vec::new(),
-    };
+    let mut outcome = Outcome::of(number, drawn.subject);
     outcome.ending = match judged(drawn, &mut outcome) {
         Ok(ending) => ending,
         // No key alone tells whether there is an equilibrium to begin with.

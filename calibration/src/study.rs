@@ -39,6 +39,10 @@ pub struct Counts {
     pub silent: Vec<u64>,
     /// Cases with a principal value off by more than a hundredth of the largest value and by more than is stated, and no warning.
     pub wrong: Vec<u64>,
+    /// Cases that break a law of contacts, and no warning.
+    pub broken: Vec<u64>,
+    /// Cases that take long, and no warning.
+    pub grinding: Vec<u64>,
     /// Cases right to a thousandth.
     pub right: usize,
     /// Of these, cases with a warning.
@@ -54,6 +58,9 @@ impl Counts {
         quotients.sort_by(f64::total_cmp);
         let exact = || values().filter_map(|v| Some((v.exact?, v.rounding())));
         let right = || outcomes.iter().filter(|o| o.right_to(RIGHT));
+        let numbers = |is: &dyn Fn(&Outcome) -> bool| {
+            outcomes.iter().filter(|o| is(o)).map(|o| o.number).collect::<Vec<_>>()
+        };
         Counts {
             cases: outcomes.len(),
             known: ended(|e| *e == Ending::Known),
@@ -69,8 +76,10 @@ impl Counts {
                 exact().count(),
                 exact().filter(|((stated, off), rounding)| *off <= stated + rounding).count(),
             ),
-            silent: outcomes.iter().filter(|o| o.silent().next().is_some()).map(|o| o.number).collect(),
-            wrong: outcomes.iter().filter(|o| o.wrong().next().is_some()).map(|o| o.number).collect(),
+            silent: numbers(&|o| o.silent().next().is_some()),
+            wrong: numbers(&|o| o.wrong().next().is_some()),
+            broken: numbers(&|o| !o.broken.is_empty() && o.warnings.is_empty()),
+            grinding: numbers(&Outcome::grinds),
             right: right().count(),
             warned: right().filter(|o| !o.warnings.is_empty()).count(),
         }
@@ -95,6 +104,8 @@ impl Counts {
             ),
             row("silent, and off by more than 10 × what is stated", self.silent.len().to_string(), "0"),
             row("silent, off by more than 1 % and than is stated", self.wrong.len().to_string(), "0"),
+            row("silent, and a contact entered or energy made", self.broken.len().to_string(), "0"),
+            row("silent, and longer than 20 s", self.grinding.len().to_string(), "0"),
             row("right to 0.1 %, and warned", part(self.warned, self.right), "≤ 5 %"),
         ]
     }

@@ -3,8 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // in helpers of tests
 
-use flexion_calibration::families::{self, COUNT, pose};
-use flexion_calibration::{Counts, Ending, draw, draw_with_contacts, judge, study};
+use flexion_calibration::families::{self, COUNT, crowds, pose};
+use flexion_calibration::{Counts, Ending, Outcome, draw, draw_with_contacts, judge, study};
 use flexion_results::Status;
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -14,6 +14,8 @@ const CASES: u64 = 60;
 const SEED: u64 = 5;
 /// Seed of the cases of families: a record lies a ten-millionth of the run before an impact.
 const FAMILIES: u64 = 3;
+/// Seed of the crowds of contacts.
+const CROWDS: u64 = 1;
 
 #[test]
 fn stated_errors_of_cases_at_random_hold_or_the_run_warns() {
@@ -46,6 +48,19 @@ fn no_case_of_a_family_is_wrong_in_silence() {
     let judged = outcomes.iter().filter(|o| o.warnings.is_empty() && !o.values.is_empty()).count();
     // Warned are the rounding of short elements at kinks, a rotor that a method without events may let through, and a companion that takes long.
     assert!(judged + 3 >= outcomes.len(), "{judged} of {}", outcomes.len());
+}
+
+/// A case each of crowds of contacts: motions and sums are those of closed forms, no contact enters, no energy is made, with warnings or without.
+#[test]
+fn crowds_of_contacts_are_right() {
+    for number in [1, 13, 16, 17, 25, 39, 57, 117] {
+        let outcome = crowds::judge(&crowds::pose(CROWDS, number), number);
+        let Outcome { subject, ending, broken, values, .. } = &outcome;
+        assert!(*ending == Ending::Known && !values.is_empty(), "{subject} ({number}): {ending:?}");
+        assert!(broken.is_empty(), "{subject} ({number}): {broken:?}");
+        let wrong = values.iter().find(|v| !(v.off <= v.stated.max(0.01 * v.size) + v.rounding()));
+        assert!(wrong.is_none(), "{subject} ({number}): {wrong:?}");
+    }
 }
 
 /// All kinds are drawn that a case may choose, but those that a run cannot be judged by.

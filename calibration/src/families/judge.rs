@@ -1,5 +1,6 @@
 //! A case of a family, run and held against its answer.
 
+use super::crowds::{Crowd, Held, LONGEST, Sum};
 use super::{Answer, Posed, Relation};
 use crate::outcome::{Compared, Ending, Outcome, run};
 use flexion::analysis::recording::Extremes;
@@ -7,15 +8,22 @@ use flexion::system::{Channel, Role};
 use flexion_case::{Effort, Problems, Reading, Run};
 use flexion_results::{ColumnError, Status};
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 /// Error of what has no stated one, over the largest value of its column.
 const UNSTATED: f64 = 1e-2;
 
-/// A finished run with its stated errors and its warnings.
+/// Error of a sum of forces or impulses that nobody states, over the sum.
+const SUMMED: f64 = 1e-3;
+/// Part of the energy in play that a run may make, and that may be gone without an account; steps that resolve contacts have losses with an error of the
+/// size of a step.
+const MADE: f64 = 1e-3;
+const LOST: f64 = 1e-2;
+
+/// A finished run with its stated errors.
 struct Answered {
     run: Run,
     errors: Vec<ColumnError>,
-    warnings: Vec<String>,
 }
 
 /// Smallest, largest and last value of a column with their stated errors.
@@ -24,24 +32,38 @@ type Values = [(f64, f64); 3];
 const PARTS: [&str; 3] = ["min", "max", "final"];
 
 impl Answered {
-    /// The answer of a case, or how it ended otherwise.
-    fn of(reading: &Reading) -> Result<Result<Answered, Ending>, Problems> {
-        let ours = run(reading)?;
+    /// The answer of a case, or how it ended otherwise; its warnings and its time are added to an outcome.
+    fn of(
+        reading: &Reading,
+        timed: bool,
+        outcome: &mut Outcome,
+    ) -> Result<Result<Answered, Ending>, Problems> {
+        let begin = Instant::now();
+        let watch = |begin: Instant| match timed && begin.elapsed() > LONGEST {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        };
+        let ours = if timed { reading.prepare()?.run(&mut |_| watch(begin)) } else { run(reading)? };
+        outcome.seconds = outcome.seconds.max(begin.elapsed().as_secs_f64());
+        let facts = reading.case.unused_by_run();
+        // Of right answers too it is said what a run does not use, that a part moves freely, and which steps follow friction; a coarse mesh is one of a column, whose
+        // stated error says as much.
+        let fact = |w: &&String| {
+            facts.contains(w)
+                || w.contains("held by no joint")
+                || w.contains("are coarse: the error of")
+                || w.contains("follow the direction of sliding")
+        };
+        outcome.warnings.extend(ours.warnings.iter().filter(|w| !fact(w)).cloned());
         match ours.status {
             Status::Finished => {}
             Status::Stopped => return Ok(Err(Ending::Unknown("the run takes too long".to_owned()))),
             Status::Failed => return Ok(Err(Ending::Failed(ours.message.unwrap_or_default()))),
         }
-        let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| ControlFlow::Continue(()));
-        let facts = reading.case.unused_by_run();
-        let said = ours.warnings.iter().chain(&errors.warnings);
-        // Of right answers too it is said what a run does not use and that a part moves freely; a coarse mesh is one of a column, whose
-        // stated error says as much.
-        let fact = |w: &&String| {
-            facts.contains(w) || w.contains("held by no joint") || w.contains("are coarse: the error of")
-        };
-        let warnings = said.filter(|w| !fact(w)).cloned().collect();
-        Ok(Ok(Answered { run: ours, errors: errors.columns, warnings }))
+        let begin = Instant::now();
+        let errors = reading.estimate_errors(&ours, Effort::Auto, &mut |_| watch(begin));
+        outcome.warnings.extend(errors.warnings.iter().filter(|w| !fact(w)).cloned());
+        Ok(Ok(Answered { run: ours, errors: errors.columns }))
     }
 
     fn values(&self, column: &str) -> Option<Values> {
@@ -61,26 +83,32 @@ impl Answered {
 
 /// Runs a case of a family as `flexion run` does, and holds it against its answer.
 pub fn judge(posed: &Posed, number: u64) -> Outcome {
-    let mut outcome = Outcome {
-        number,
-        subject: posed.case.subject,
-        ending: Ending::Known,
-        warnings: Vec::new(),
-        values: Vec::new(),
-    };
-    outcome.ending = match judged(posed, &mut outcome) {
+    judged(posed, None, number)
+}
+
+/// The same of a crowd of contacts, which is held against their laws besides.
+pub(super) fn judge_crowd(crowd: &Crowd, number: u64) -> Outcome {
+    judged(&crowd.posed, Some(&crowd.held), number)
+}
+
+fn judged(posed: &Posed, held: Option<&Held>, number: u64) -> Outcome {
+    let mut outcome = Outcome::of(number, posed.case.subject);
+    outcome.ending = match answer(posed, held, &mut outcome) {
         Ok(ending) => ending,
         Err(problems) => Ending::Refused(problems.to_string()),
     };
     outcome
 }
 
-fn judged(posed: &Posed, outcome: &mut Outcome) -> Result<Ending, Problems> {
-    let ours = match Answered::of(&posed.case.read(&[])?)? {
+fn answer(posed: &Posed, held: Option<&Held>, outcome: &mut Outcome) -> Result<Ending, Problems> {
+    let answered = |reading: &Reading, outcome: &mut Outcome| Answered::of(reading, held.is_some(), outcome);
+    let ours = match answered(&posed.case.read(&[])?, outcome)? {
         Ok(ours) => ours,
         Err(ending) => return Ok(ending),
     };
-    outcome.warnings.clone_from(&ours.warnings);
+    if let Some(held) = held {
+        hold(held, &ours, outcome);
+    }
     match &posed.answer {
         Answer::Known(list) => {
             for known in list {
@@ -89,6 +117,8 @@ fn judged(posed: &Posed, outcome: &mut Outcome) -> Result<Ending, Problems> {
                     ours.values(&known.column).map_or((f64::NAN, f64::NAN), |values| values[part]);
                 let size = largest(&ours, &known.column).max(known.value.abs());
                 let channel = ours.columns().find(|c| c.name == known.column);
+                // Behind an impact on a beam nothing is stated: a crowd is held against what is well-posed all the same.
+                let stated = if held.is_some() && !stated.is_finite() { UNSTATED * size } else { stated };
                 outcome.values.push(Compared {
                     column: known.column.clone(),
                     part: PARTS[part],
@@ -102,11 +132,10 @@ fn judged(posed: &Posed, outcome: &mut Outcome) -> Result<Ending, Problems> {
             }
         }
         Answer::Other(other, relation) => {
-            let theirs = match Answered::of(&other.read(&[])?)? {
+            let theirs = match answered(&other.read(&[])?, outcome)? {
                 Ok(theirs) => theirs,
                 Err(ending) => return Ok(ending),
             };
-            outcome.warnings.extend(theirs.warnings.clone());
             for channel in ours.columns() {
                 // Parts that are named otherwise have columns of their own.
                 let (Some(a), Some(b)) = (ours.values(&channel.name), theirs.values(&channel.name)) else {
@@ -143,6 +172,54 @@ fn judged(posed: &Posed, outcome: &mut Outcome) -> Result<Ending, Problems> {
         }
     }
     Ok(Ending::Known)
+}
+
+/// Holds a crowd of contacts against sums and laws.
+fn hold(held: &Held, ours: &Answered, outcome: &mut Outcome) {
+    let mut sum = |name: &str, value: f64, known: f64, stated: f64| {
+        outcome.values.push(Compared {
+            column: name.to_owned(),
+            part: "final",
+            principal: true,
+            value,
+            size: known.abs(),
+            stated,
+            off: (value - known).abs(),
+            exact: None,
+        });
+    };
+    for Sum { name, terms, value, within } in &held.sums {
+        let of = |(column, factor): &(String, f64)| {
+            let last = ours.run.trajectory.index(column).map(|i| ours.run.trajectory.extremes(i).last);
+            factor * last.unwrap_or(f64::NAN)
+        };
+        // Stated errors of single forces say nothing of their sum.
+        sum(name, terms.iter().map(of).sum(), *value, within + SUMMED * value.abs());
+    }
+    if let Some((value, within)) = held.impulse {
+        let found = ours.run.events.impulses().map(|(_, impulse)| impulse).sum();
+        sum("impulse of all contacts", found, value, within + SUMMED * value.abs());
+    }
+    let extremes = |suffix: &str| {
+        let names =
+            ours.run.trajectory.channels().iter().enumerate().filter(|(_, c)| c.name.ends_with(suffix));
+        let least = |(m, n): (f64, f64), e: Extremes| (m.min(e.min), n.max(e.max));
+        names.map(|(i, _)| ours.run.trajectory.extremes(i)).fold((0.0, 0.0), least)
+    };
+    let mut broken = |what: &str, by: f64, bound: f64| {
+        // Written so that NaN is counted.
+        if !(by <= bound) {
+            outcome.broken.push(format!("{what}: {by:.2e}, and {bound:.2e} at most"));
+        }
+    };
+    if let Some(entered) = held.entered {
+        broken("a contact is entered [m]", -extremes(".gap").0, entered);
+    }
+    let (lost, made) = extremes("energy.balance");
+    let nonsmooth = |text: &str| text.contains("nonsmooth-generalized-alpha") || text.contains("moreau-jean");
+    let stepped = nonsmooth(ours.run.info.name) || ours.run.warnings.iter().any(|w| nonsmooth(w));
+    broken("energy is made [J]", made, if stepped { LOST } else { MADE } * held.energy);
+    broken("energy goes nowhere [J]", -lost, LOST * held.energy);
 }
 
 /// The largest absolute value of a column.

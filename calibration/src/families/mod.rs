@@ -6,6 +6,7 @@
 
 mod beams;
 mod contacts;
+pub mod crowds;
 mod judge;
 mod rotations;
 mod symmetry;
