@@ -293,7 +293,7 @@ fn a_ball_with_a_spin_of_its_own_slides_on_a_parabola_and_rolls() {
     let size = sliding[0].hypot(sliding[1]);
     let along = sliding.map(|c| c / size);
     for (height, e) in [(0.0, 0.0), (0.3, 0.0), (0.3, 0.4)] {
-        let fall = (2.0 * height / G as f64).sqrt();
+        let fall = (2.0_f64 * height / G).sqrt();
         // Sliding velocity behind each impact, until bounces have come to their end.
         let (mut left, mut speed, mut time) = (size, G * fall, fall);
         let mut place = velocity.map(|v| v * fall);

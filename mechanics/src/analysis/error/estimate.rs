@@ -301,23 +301,20 @@ fn finer_run<P: Refinable>(
     let Some(step) = variant.fixed_step() else {
         return Ok((finer, fine));
     };
-    // Where the companion leaves contacts to nonsmooth steps, those are shorter than the steps of the run.
-    let mut near = rubbing(run).unwrap_or_else(|| variant.plan.contact_step.unwrap_or(step));
-    let mut by = |variant: Variant| {
-        near *= SHORTER * SHORTER;
-        Variant { plan: Plan { contact_step: Some(near), ..variant.plan.clone() }, ..variant }
-    };
-    let rubs = rubbing(&fine).is_some();
-    if rubs {
-        finer = by(finer);
-        fine = until_impact(problem, &finer, watch)?;
+    // Where the companion leaves contacts to nonsmooth steps, which are of the first order, those are a quarter of the steps of the run.
+    if rubbing(&fine).is_some() {
+        let near = rubbing(run).unwrap_or_else(|| variant.plan.contact_step.unwrap_or(step));
+        let finer = finer.by_radau(LADDER[1]);
+        let plan = Plan { contact_step: Some(SHORTER * SHORTER * near), ..finer.plan.clone() };
+        let finer = Variant { plan, ..finer };
+        let fine = until_impact(problem, &finer, watch)?;
+        return Ok((finer, fine));
     }
     for rung in &LADDER[1..] {
         if fine.ending != Ending::Finished {
             break;
         }
         let next = finer.by_radau(*rung).with_shorter_parts();
-        let next = if rubs { by(next) } else { next };
         let Ok(finest) = until_impact(problem, &next, watch) else { break };
         let settled = settled(run, &fine, &finest);
         (finer, fine) = (next, finest);
