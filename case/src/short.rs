@@ -327,6 +327,9 @@ fn orient(contacts: &mut Line) {
         else {
             continue;
         };
+        // An empty list is left out too.
+        let empty = |line: &Line| matches!(&line.node.value, Raw::List(list) if list.is_empty());
+        lines.retain(|line| !(matches!(line.key.as_str(), "normal" | "axis") && empty(line)));
         let has = |key: &str| lines.iter().any(|line| line.key == key);
         let of = |kind: &str| {
             written(lines, "kind").is_some_and(|node| matches!(&node.value, Raw::Text(text) if text == kind))

@@ -279,8 +279,7 @@ fn a_centreline_through_points_of_an_arc_is_the_arc() {
     }
 }
 
-/// A block that slides over the floor comes to rest after v²/(2 μ g) in the direction of its velocity; events do not find the
-/// direction, which is said at the key.
+/// A block that slides over the floor comes to rest after v²/(2 μ g) in the direction of its velocity.
 #[test]
 fn friction_in_space_acts_against_the_velocity() {
     let case = |method: &str| {
@@ -292,7 +291,7 @@ fn friction_in_space_acts_against_the_velocity() {
              step = \"1 ms\"\n[output]\nstep = \"0.01 s\"\n"
         )
     };
-    for method in ["nonsmooth-generalized-alpha", "moreau-jean"] {
+    for method in ["nonsmooth-generalized-alpha", "moreau-jean", "generalized-alpha"] {
         let run = run(&case(method));
         for (axis, part) in [("x", 0.6), ("y", 0.8)] {
             // v²/(2 μ g) = 0.2 m.
@@ -302,9 +301,6 @@ fn friction_in_space_acts_against_the_velocity() {
         let names = columns(&run);
         assert!(names.contains(&"contact.friction.x") && names.contains(&"contact.friction.z"), "{names:?}");
     }
-    let Err(problems) = read(&case("generalized-alpha")) else { panic!("events find no direction") };
-    let text = problems.to_string();
-    assert!(text.contains("friction") && text.contains("moreau-jean"), "{text}");
 }
 
 /// Between the steps of a run with contacts too: the steps of a ball in flight are as long as the run allows, 1 + v²/2g.
