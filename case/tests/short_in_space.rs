@@ -282,8 +282,9 @@ const SHORT_STEPS: ([&str; 2], [&str; 2]) = (
 
 /// What differs where nonsmooth steps follow the closed contact in space, and events in the plane: the force at a record is the mean of a step there, which in the first step
 /// also stops the tip, and the tip creeps along the stop with 1e-4 m/s.
-const FOLLOWED: [(&str, &str); 4] = [
+const FOLLOWED: [(&str, &str); 5] = [
     ("contact_friction", "stop.force"),
+    ("contact_friction/sticks", "stop.force"),
     ("contact_friction/radau", "stop.force"),
     ("contact_friction/radau", "tip.axial_velocity"),
     ("contact_friction/radau", "energy.contact_loss"),
