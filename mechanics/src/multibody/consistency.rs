@@ -197,16 +197,18 @@ fn are_independent(matrix: &mut Matrix, g: &[Vec<(usize, f64)>], scale: &[f64]) 
     let mut x = vec![0.0; n + g.len()];
     let start = (0..g.len()).map(|i| libm::sin(1.0 + i as f64));
     x[n..].iter_mut().zip(start).for_each(|(x, start)| *x = start);
-    let mut largest = 0.0_f64;
     for _ in 0..POWERS {
         let size = dot(&x[n..], &x[n..]).sqrt();
         x[..n].fill(0.0);
         x[n..].iter_mut().for_each(|x| *x /= size);
         matrix.solve(&mut x);
-        largest = largest.max(dot(&x[n..], &x[n..]).sqrt());
+        let grown = dot(&x[n..], &x[n..]).sqrt();
+        if !(grown * CERTAIN * CERTAIN < 1.0) {
+            // What is no number is not independent either.
+            return false;
+        }
     }
-    // NaN is not independent.
-    largest * CERTAIN * CERTAIN < 1.0
+    true
 }
 
 /// The velocities nearest to those of `s` that obey the rows: M Δv = Gᵀ Λ, G Δv = −ġ.
