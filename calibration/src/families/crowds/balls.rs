@@ -1,8 +1,8 @@
 //! Balls on planes, and against each other.
 
 use super::{
-    Crowd, ENTERED, Held, about, begin, count, cross, dot, entered, known, method, plus, size, smooth_method,
-    some, stepping,
+    Crowd, ENTERED, Held, Method, about, begin, count, cross, dot, entered, known, method, plus, size,
+    smooth_method, some, stepping,
 };
 use crate::families::{Known, exactly};
 use crate::random::Random;
@@ -160,6 +160,11 @@ fn fly(ball: &mut Ball, time: f64, g: f64) {
     ball.velocity[2] -= g * time;
 }
 
+/// What holds of balls that stay on what bears them: the impulse of all contacts is that of the weight.
+fn borne(energy: f64, weight: f64, method: &Method, g: f64) -> Held {
+    Held { energy, entered: entered(1.0, method, 0.0, g), impulse: Some((weight, 0.0)), ..Held::default() }
+}
+
 /// Balls set down on a floor with velocities and spins of their own slip for 2 u/(7 μ g), on parabolas, and then roll.
 pub(super) fn roll(random: &mut Random) -> Crowd {
     let g = random.scale(1.0..20.0);
@@ -193,13 +198,7 @@ pub(super) fn roll(random: &mut Random) -> Crowd {
         values.push(exactly(&format!("k{k}.force"), "final", ball.mass * g));
     }
     let weight = balls.iter().map(|ball| ball.mass * g * duration).sum();
-    let held = Held {
-        energy,
-        entered: entered(1.0, &method, 0.0, g),
-        impulse: Some((weight, 0.0)),
-        ..Held::default()
-    };
-    known(case, values, held)
+    known(case, values, borne(energy, weight, &method, g))
 }
 
 /// Balls let go on an incline roll with ⁵⁄₇ g sin α, where μ ≥ ²⁄₇ tan α, or slip with g (sin α − μ cos α).
@@ -231,13 +230,7 @@ pub(super) fn incline(random: &mut Random) -> Crowd {
         values.push(exactly(&format!("k{k}.force"), "final", ball.mass * g * slope.cos()));
         weight += ball.mass * g * slope.cos() * duration;
     }
-    let held = Held {
-        energy,
-        entered: entered(1.0, &method, 0.0, g),
-        impulse: Some((weight, 0.0)),
-        ..Held::default()
-    };
-    known(case, values, held)
+    known(case, values, borne(energy, weight, &method, g))
 }
 
 /// Balls on one line, each of which strikes its neighbours.
