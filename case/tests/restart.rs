@@ -66,11 +66,12 @@ fn assert_same(whole: &Run, parts: &Run, since: f64, what: &str) {
         after.map(|(t, row)| bits(std::iter::once(t).chain(row.iter().copied()))).collect()
     };
     assert!(rows(whole).len() > 10, "{what}: nothing to compare");
-    for (a, b) in rows(whole).iter().zip(&rows(parts)) {
+    for (n, (a, b)) in rows(whole).iter().zip(&rows(parts)).enumerate() {
         for (k, (a, b)) in a.iter().zip(b).enumerate() {
             let name = k.checked_sub(1).map_or("t", |k| &whole.trajectory.channels()[k].name);
             let (x, y) = (f64::from_bits(*a), f64::from_bits(*b));
-            assert!(a == b, "{what}: {name} differs: {x:e} and {y:e}");
+            let t = f64::from_bits(rows(whole)[n][0]);
+            assert!(a == b, "{what}: {name} differs at t = {t}: {x:e} and {y:e}");
         }
     }
     assert_eq!(rows(whole).len(), rows(parts).len(), "{what}: numbers of rows");
@@ -240,6 +241,64 @@ step = 1e-3
                 let complete = assert_goes_on(&case, &set, &[part(), part(), part()]);
                 assert!(contact.len() < 20 || !complete.events.list.is_empty(), "{set:?}");
             }
+        }
+    }
+}
+
+/// An arm that lies down chatters, and a ball that rolls rubs: both are followed by the steps of another method, within which the run stops too.
+#[test]
+fn a_run_that_is_stopped_while_contacts_chatter_or_rub_goes_on_bit_by_bit() {
+    const ARM: &str = "
+gravity = [0, -9.81]
+run = { duration = 0.5 }
+output = { step = '2 ms' }
+beam = { length = 1 }
+damping = { stiffness = '0.2 ms' }
+section = { kind = 'circle', modulus = '2 GPa', density = 1200, radius = '5 mm' }
+hub = { motion = { kind = 'free', angle = '2 deg' } }
+model = { coupling = 'exact' }
+basis = { kind = 'finite-elements', elements = 6 }
+[[contact]]
+name = 'floor'
+on = 'beam'
+points = 6
+obstacle = { kind = 'plane', point = [0, '-1 mm'] }
+law = { kind = 'constraint', restitution = 0.2 }
+";
+    const BALL: &str = "
+gravity = [0, 0, -9.81]
+run = { duration = 1 }
+output = { step = '5 ms' }
+[[body]]
+name = 'ball'
+mass = 1
+inertia = { kind = 'sphere', radius = '5 cm' }
+position = [0, 0, '6 cm']
+velocity = [0.6, 0.8, 0]
+[[contact]]
+name = 'ground'
+on = 'ball'
+radius = '5 cm'
+obstacle = { kind = 'plane', normal = [0, 0, 1], motion = { displacement = [0, 0, '-1 m'], amplitude = { kind = 'expression', formula = '8 * max(t - 0.6, 0)^2' } } }
+law = { kind = 'constraint', restitution = 0.2, friction = 0.3 }
+";
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    for text in [ARM, BALL] {
+        std::fs::write(&case, text).unwrap();
+        for integrator in [
+            "integrator={kind='radau',tolerance=1e-4}",
+            "integrator={kind='generalized-alpha',step='0.5 ms'}",
+        ] {
+            let parts = [0.236, 0.37, 0.64, 0.86];
+            let whole = reading(&case, &[integrator]);
+            let is_open = |part: &f64| {
+                let stopped = run(&whole, part * whole.case.duration);
+                stopped.checkpoint.list("burst").is_ok()
+            };
+            assert_goes_on(&case, &[integrator], &parts);
+            assert!(parts.iter().any(is_open), "{integrator}: none is stopped in a burst");
+            assert!(!parts.iter().all(is_open), "{integrator}: all are stopped in one");
         }
     }
 }

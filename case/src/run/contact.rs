@@ -127,32 +127,39 @@ pub(super) struct Limit {
 }
 
 impl Limit {
-    /// A warning of a force or an indentation beyond it: of an obstacle that moves on where the beam cannot follow.
-    pub(super) fn exceeded(&self, trajectory: &Trajectory) -> Option<String> {
+    /// How far a force or an indentation is beyond it, over the limit, and what to say of it.
+    fn exceeded(&self, trajectory: &Trajectory) -> Option<(f64, String)> {
         let extremes = |quantity: &str| {
             trajectory.index(&format!("{}.{quantity}", self.name)).map(|index| trajectory.extremes(index))
         };
         let (force, gap) = (extremes("force")?, extremes("gap")?);
-        let strain = force.max / self.stiffness;
-        let how = if strain > STRETCHED {
-            format!(
-                "presses with {:.3e} N at t = {:.4} s, {:.0} % of EA",
-                force.max,
-                force.t_max,
-                100.0 * strain
-            )
-        } else if -gap.min > self.depth {
-            let depth = -gap.min;
-            format!(
-                "is {depth:.3e} m inside its obstacle at t = {:.4} s, more than the beam is high",
-                gap.t_min
-            )
+        let (strain, depth) = (force.max / self.stiffness, -gap.min);
+        let (excess, how) = if strain > STRETCHED {
+            let (force, at) = (force.max, force.t_max);
+            let how = format!("presses with {force:.3e} N at t = {at:.4} s, {:.0} % of EA", 100.0 * strain);
+            (strain / STRETCHED, how)
+        } else if depth > self.depth {
+            let at = gap.t_min;
+            let how =
+                format!("is {depth:.3e} m inside its obstacle at t = {at:.4} s, more than the beam is high");
+            (depth / self.depth, how)
         } else {
             return None;
         };
-        Some(format!(
-            "the contact `{}` {how}, which no linear-elastic beam bears: does the obstacle move on where the beam cannot follow?",
-            self.name
-        ))
+        Some((excess, format!("the contact `{}` {how}", self.name)))
     }
+}
+
+/// A warning of the contact that is furthest beyond what its beam bears: of an obstacle that moves on where the beam cannot follow.
+pub(super) fn overloaded(limits: &[Limit], trajectory: &Trajectory) -> Option<String> {
+    let exceeded: Vec<_> = limits.iter().filter_map(|limit| limit.exceeded(trajectory)).collect();
+    let (_, worst) = exceeded.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let others = match exceeded.len() - 1 {
+        0 => String::new(),
+        1 => " (and another contact less so)".to_owned(),
+        others => format!(" (and {others} other contacts less so)"),
+    };
+    Some(format!(
+        "{worst}{others}, which no linear-elastic beam bears: does the obstacle move on where the beam cannot follow?"
+    ))
 }

@@ -441,7 +441,7 @@ impl Prepared {
         let counters = checkpoint.counters().unwrap_or_default();
         let record = recorder.into_record(system.as_mut(), state, counters, ending);
         warnings.extend(system.cautions(&record.trajectory.peaks()));
-        warnings.extend(limits.iter().filter_map(|limit| limit.exceeded(&record.trajectory)));
+        warnings.extend(contact::overloaded(&limits, &record.trajectory));
         warnings.extend(record.warnings.iter().map(|warning| cautions::of_run(warning, plan.step.is_some())));
         scene.draw(system.as_mut());
         if let Ending::Finished = record.ending {

@@ -330,9 +330,14 @@ impl Integral {
         self.burst = Some([self.balance.imbalance(system.energy(state).total()), 0.0]);
     }
 
-    /// Ends it: what dampers have taken less than by their power \[J\].
-    pub(super) fn end_burst(&mut self) -> f64 {
-        self.burst.take().map_or(0.0, |[_, less]| less)
+    /// What dampers have taken less in it than by their power \[J\].
+    pub(super) fn burst_less(&self) -> f64 {
+        self.burst.map_or(0.0, |[_, less]| less)
+    }
+
+    /// Ends it.
+    pub(super) fn end_burst(&mut self) {
+        self.burst = None;
     }
 
     /// Takes the power behind a jump.
@@ -349,6 +354,9 @@ impl Integral {
         out.put("energy.power", &[drive, loads, dissipated, contact]);
         let Gain { low, rise, strain, gravity: [bottom, top], kinetic } = self.gain;
         out.put("energy.gain", &[low, rise, strain, bottom, top, kinetic]);
+        if let Some([imbalance, _]) = self.burst {
+            out.put("energy.burst", &[imbalance]);
+        }
     }
 
     /// Continues the balance of an earlier run, if it kept one.
@@ -363,6 +371,10 @@ impl Integral {
         let [low, rise, strain, bottom, top, kinetic] = from.numbers("energy.gain")?;
         self.gain = Gain { low, rise, strain, gravity: [bottom, top], kinetic };
         self.end = (self.balance, self.power);
+        if from.list("energy.burst").is_ok() {
+            let [imbalance] = from.numbers("energy.burst")?;
+            self.burst = Some([imbalance, 0.0]);
+        }
         Ok(())
     }
 }

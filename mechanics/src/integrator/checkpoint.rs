@@ -78,10 +78,23 @@ impl Checkpoint {
     /// # Errors
     /// [`NotResumed::Invalid`].
     pub fn check_numbers(&self) -> Result<(), NotResumed> {
-        let may_lack = |name: &str| UNKNOWN.contains(&name) || name.starts_with(OBSERVED);
+        let last = |name: &str| name.rsplit('.').next().is_some_and(|last| UNKNOWN.contains(&last));
+        let may_lack = |name: &str| last(name) || name.starts_with(OBSERVED);
         let wrong = |(name, list): &(&str, &[f64])| !may_lack(name) && list.iter().any(|x| x.is_nan());
         let found = self.entries().find(wrong);
         found.map_or(Ok(()), |(name, _)| Err(NotResumed::Invalid(name.to_owned())))
+    }
+
+    /// Adds the lists of another, under names that begin with `prefix`.
+    pub fn put_all(&mut self, prefix: &str, other: &Checkpoint) {
+        other.entries().for_each(|(name, values)| self.put(&format!("{prefix}{name}"), values));
+    }
+
+    /// The lists whose names begin with `prefix`, under what follows it.
+    pub fn part(&self, prefix: &str) -> Checkpoint {
+        let own =
+            |(name, list): &(String, Vec<f64>)| Some((name.strip_prefix(prefix)?.to_owned(), list.clone()));
+        Checkpoint { entries: self.entries.iter().filter_map(own).collect() }
     }
 
     /// Adds a list, or replaces it in its place.

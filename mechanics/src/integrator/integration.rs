@@ -42,9 +42,9 @@ impl Integration {
         self.counters
     }
 
-    /// Counts the work of another method, to which the run went over for a time, as its own.
-    pub(crate) fn absorb(&mut self, other: &Integration) {
-        let of = &other.counters;
+    /// Counts the work of another method, from which the run goes over to this one, as its own.
+    pub(crate) fn take_over(&mut self, other: &mut Integration) {
+        let of = std::mem::take(&mut other.counters);
         let Counters { steps, rejected, iterations, residuals, tangents, factorizations, solves } =
             &mut self.counters;
         *steps += of.steps;

@@ -1,6 +1,7 @@
 //! What a run passes through between its records: extremes of the channels, and how fast it vibrates.
 
-use super::trajectory::{Trajectory, continue_quaternions, vertex};
+use super::trajectory::{COMPONENTS, Trajectory, continue_quaternions, vertex};
+use crate::integrator::Checkpoint;
 use crate::system::{Channel, Kind, Side, State, System};
 use std::f64::consts::TAU;
 
@@ -12,6 +13,9 @@ const SAME: f64 = 1e-3;
 const OFF_LINE: f64 = 1e-3;
 /// What is left at each row of the square of the largest acceleration before it: what a jump set vibrating fast is soon forgotten.
 const REMEMBERED: f64 = 0.5;
+
+/// What the last unit quaternions are called in a checkpoint.
+const SIGNS: &str = "quaternions";
 
 /// Unknowns that are looked at together.
 const LANES: usize = 4;
@@ -196,6 +200,24 @@ impl Passing {
         self.look_ahead();
         self.recorded = true;
         true
+    }
+
+    /// Adds the unit quaternions of the last row to a checkpoint: those of a run that goes on keep their signs.
+    pub(super) fn save(&self, out: &mut Checkpoint) {
+        if !self.quaternions.is_empty() {
+            let last = self.quaternions.iter().flat_map(|first| &self.rows[3].1[*first..first + COMPONENTS]);
+            out.put(SIGNS, &last.copied().collect::<Vec<_>>());
+        }
+    }
+
+    /// Takes up what [`Passing::save`] wrote, if as many are recorded.
+    pub(super) fn resume(&mut self, from: &Checkpoint) {
+        let Ok(last) = from.list(SIGNS) else { return };
+        if last.len() == COMPONENTS * self.quaternions.len() {
+            for (first, last) in self.quaternions.iter().zip(last.chunks_exact(COMPONENTS)) {
+                self.rows[3].1[*first..first + COMPONENTS].copy_from_slice(last);
+            }
+        }
     }
 
     fn add(&mut self, state: &State) -> &mut [f64] {

@@ -354,9 +354,11 @@ impl Observer for Recorder<'_> {
 
     fn save(&self, out: &mut Checkpoint) {
         self.events.save(out);
+        self.passing.save(out);
     }
 
     fn resume(&mut self, from: &Checkpoint) -> Result<(), NotResumed> {
+        self.passing.resume(from);
         self.events.resume(from)
     }
 

@@ -14,11 +14,14 @@
 //! The run comes back to its own method when no contact has opened or closed for so many steps, twice as many each time; where it cannot, for rows of
 //! closed contacts depend on each other, it goes on with nonsmooth steps.
 
-use super::breaks::next_break;
+use super::breaks::{is_fixed, next_break};
+use super::chatter::Bursts;
 use super::contacts::Contacts;
 use super::segment::Segment;
 use super::{Burst, Ending, Event, EventKind, Leg, Observer, Plan, Run, RunError};
-use crate::integrator::{Integration, Integrator, NonsmoothAlpha, StepError};
+use crate::integrator::{
+    Checkpoint, Integration, Integrator, InvalidParameter, NonsmoothAlpha, NotResumed, StepControl, StepError,
+};
 use crate::system::{Mode, Set, State, System};
 
 /// Spectral radius of the nonsmooth method at infinite frequency.
@@ -26,6 +29,8 @@ const SPECTRAL_RADIUS: f64 = 0.8;
 /// Longest step over the longest that the method of the run would take, and the first one over that.
 const PART: f64 = 0.25;
 const FIRST_PART: f64 = 0.125;
+/// What the lists of the method of the run are called in a checkpoint within a burst.
+const OWN: &str = "own.";
 /// Halvings of a step that does not converge.
 const HALVINGS: u32 = 12;
 
@@ -41,23 +46,25 @@ impl Run {
         }
     }
 
-    /// Follows contacts that chatter from `state` until they have come to rest, or to the end of the run. `mean` is the time between their events, 0 for contacts that
-    /// [rub](super::rubbing) and are followed until they are open.
-    pub(super) fn burst(
+    /// Leaves contacts that chatter from `state` on to a nonsmooth method. `mean` is the time between their events, 0 for contacts that [rub](super::rubbing) and are
+    /// followed until they are open.
+    pub(super) fn begin_burst(
         &mut self,
         system: &mut dyn System,
         integrator: &mut Integration,
         state: &mut State,
         (plan, mean): (&Plan, f64),
         observer: &mut dyn Observer,
-    ) -> Result<Option<Ending>, RunError> {
+    ) -> Result<(), RunError> {
         let longest = plan.step.unwrap_or_else(|| plan.longest_from(self.origin));
         let step = plan.contact_step.unwrap_or((PART * longest).max(mean));
         (self.bursts.longest, self.bursts.step, self.bursts.count) = (step, FIRST_PART * step, 0);
-        let rubbing = mean == 0.0;
-        let begin = state.t;
-        let mut own = (self.contacts.take(), self.control.take(), self.segment.take());
-        if let Some(contacts) = &mut own.0 {
+        let Ok(method) = method() else { return Ok(()) };
+        let started = method.start(system, state, self.bursts.step);
+        let mut nonsmooth = started.map_err(|error| super::failed(system, state, error))?;
+        nonsmooth.take_over(integrator);
+        let mut contacts = self.contacts.take();
+        if let Some(contacts) = &mut contacts {
             self.bursts.add(std::mem::take(&mut contacts.neglected));
         }
         self.contacts = Contacts::new(system, state).and_then(Contacts::of_indicators);
@@ -65,27 +72,48 @@ impl Run {
             balance.begin_burst(system, state);
         }
         observer.begin(true);
-        let within = Plan { step: Some(self.bursts.step), longest_step: None, contact_step: None, ..*plan };
-        let result = self.nonsmooth(system, state, &within, observer, integrator, (own.0, rubbing));
-        (self.control, self.segment) = (own.1, own.2);
-        let less = self.balance.as_mut().map_or(0.0, super::Integral::end_burst);
-        observer.burst(&Burst { begin, end: state.t, step, less, rubbing });
-        let (ended, contacts) = result?;
-        self.contacts = contacts;
-        if ended.is_some() {
-            self.bursts.open = true;
-            return Ok(ended);
+        self.divide_burst(system, &nonsmooth, state, plan.end);
+        self.bursts.quiet = Some(0);
+        let (control, rubbing) = (self.control.take(), mean == 0.0);
+        self.open = Some(Open { nonsmooth, contacts, control, begin: state.t, rubbing, halvings: 0 });
+        Ok(())
+    }
+
+    /// Follows the contacts of an open burst until they have come to rest, or to the end of the run.
+    pub(super) fn follow(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut Integration,
+        state: &mut State,
+        plan: &Plan,
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Ending>, RunError> {
+        let Some(mut open) = self.open.take() else { return Ok(None) };
+        let result = self.nonsmooth(system, integrator, state, (plan, &mut open), observer);
+        let less = self.balance.as_ref().map_or(0.0, super::Integral::burst_less);
+        let Open { begin, rubbing, .. } = open;
+        observer.burst(&Burst { begin, end: state.t, step: self.bursts.longest, less, rubbing });
+        if !matches!(result, Ok(None)) {
+            // From here the run can go on.
+            self.open = Some(open);
+            return result;
+        }
+        let Open { mut nonsmooth, contacts, control, .. } = open;
+        integrator.take_over(&mut nonsmooth);
+        (self.contacts, self.control, self.bursts.quiet) = (contacts, control, None);
+        if let Some(balance) = &mut self.balance {
+            balance.end_burst();
         }
         observer.begin(false);
         observer.event(&Event { time: state.t, kind: EventKind::Switch, modes: state.mode.clone() });
         observer.passing(system, state);
         if let Some(control) = &mut self.control {
-            control.restart(step);
+            control.restart(self.bursts.longest);
         }
-        if self.segment.is_some() {
+        self.segment = plan.step.filter(|_| is_fixed(integrator.info())).map(|step| {
             let end = next_break(system, integrator.info(), state.t, plan.end);
-            self.segment = Some(Segment::new(state.t, end, longest));
-        }
+            Segment::new(state.t, end, step)
+        });
         self.begins = true;
         Ok(None)
     }
@@ -94,44 +122,36 @@ impl Run {
     fn nonsmooth(
         &mut self,
         system: &mut dyn System,
-        state: &mut State,
-        plan: &Plan,
-        observer: &mut dyn Observer,
         integrator: &mut Integration,
-        (mut contacts, rubbing): (Option<Contacts>, bool),
-    ) -> Result<(Option<Ending>, Option<Contacts>), RunError> {
-        let Ok(method) = NonsmoothAlpha::decoupled(SPECTRAL_RADIUS) else { return Ok((None, contacts)) };
-        let started = method.start(system, state, self.bursts.step);
-        let mut nonsmooth = started.map_err(|error| super::failed(system, state, error))?;
-        self.begin_nonsmooth(system, &nonsmooth, state, plan);
-        let mut halvings = 0;
+        state: &mut State,
+        (plan, open): (&Plan, &mut Open),
+        observer: &mut dyn Observer,
+    ) -> Result<Option<Ending>, RunError> {
+        let step = Some(FIRST_PART * self.bursts.longest);
+        let plan = &Plan { step, longest_step: None, contact_step: None, ..*plan };
+        let Open { nonsmooth, contacts, rubbing, halvings, .. } = open;
         loop {
-            self.bursts.quiet = Some(0);
-            let leg = self.leg(system, &mut nonsmooth, state, plan, observer);
-            self.bursts.quiet = None;
-            let leg = match leg {
-                Ok(leg) => leg,
-                Err(RunError::Step { error: StepError::NotConverged { .. }, .. }) if halvings < HALVINGS => {
-                    halvings += 1;
-                    self.bursts.step *= 0.5;
-                    self.bursts.count = 0;
+            // A run that was stopped where its contacts had come to rest.
+            let settles = self.bursts.rest() && !self.rubbing.is_on(state);
+            let leg =
+                if settles { Ok(Leg::Settled) } else { self.leg(system, nonsmooth, state, plan, observer) };
+            match leg {
+                Ok(Leg::Ended(ending)) => return Ok(Some(ending)),
+                Ok(_) => self.bursts.quiet = Some(0),
+                Err(RunError::Step { error: StepError::NotConverged { .. }, .. }) if *halvings < HALVINGS => {
+                    *halvings += 1;
+                    (self.bursts.step, self.bursts.count, self.bursts.quiet) =
+                        (0.5 * self.bursts.step, 0, Some(0));
                     let restarted = nonsmooth.restart(system, state);
                     restarted.map_err(|error| super::failed(system, state, error))?;
-                    self.begin_nonsmooth(system, &nonsmooth, state, plan);
+                    self.divide_burst(system, nonsmooth, state, plan.end);
                     continue;
                 }
-                Err(error) => {
-                    integrator.absorb(&nonsmooth);
-                    return Err(error);
-                }
-            };
-            if let Leg::Ended(ending) = leg {
-                integrator.absorb(&nonsmooth);
-                return Ok((Some(ending), contacts));
+                Err(error) => return Err(error),
             }
             // Contacts that do not hold by themselves are left to this method.
             let mut settled = state.clone();
-            let held = match &mut contacts {
+            let held = match contacts {
                 Some(contacts) => contacts.settle(system, &mut settled).is_ok(),
                 None => false,
             };
@@ -143,32 +163,115 @@ impl Run {
                 continue;
             }
             if held && settled.is_finite() && integrator.restart(system, &mut settled).is_ok() {
-                if !rubbing {
+                if !*rubbing {
                     self.bursts.hold = self.bursts.hold.saturating_mul(2);
                 }
                 *state = settled;
                 if let Some(balance) = &mut self.balance {
                     balance.restart(system, state);
                 }
-                integrator.absorb(&nonsmooth);
-                return Ok((None, contacts));
+                return Ok(None);
             }
             self.bursts.hold = u32::MAX;
         }
     }
 
     /// Divides what is left into steps of a burst, from a state at which its method has begun anew.
-    fn begin_nonsmooth(
-        &mut self,
-        system: &mut dyn System,
-        nonsmooth: &Integration,
-        state: &State,
-        plan: &Plan,
-    ) {
-        let stop = next_break(system, nonsmooth.info(), state.t, plan.end);
+    fn divide_burst(&mut self, system: &mut dyn System, nonsmooth: &Integration, state: &State, end: f64) {
+        let stop = next_break(system, nonsmooth.info(), state.t, end);
         self.segment = Some(Segment::new(state.t, stop, self.bursts.step));
         if let Some(balance) = &mut self.balance {
             balance.restart(system, state);
         }
+    }
+}
+
+/// The nonsmooth method of a burst.
+fn method() -> Result<NonsmoothAlpha, InvalidParameter> {
+    NonsmoothAlpha::decoupled(SPECTRAL_RADIUS)
+}
+
+/// A burst in which a run is, and what the method of the run has left to go on with behind it.
+pub(super) struct Open {
+    nonsmooth: Integration,
+    contacts: Option<Contacts>,
+    control: Option<StepControl>,
+    /// Where it began, or the run was taken up in it \[s\].
+    begin: f64,
+    rubbing: bool,
+    /// Halvings of the step so far.
+    halvings: u32,
+}
+
+impl Open {
+    /// Adds what later steps depend on to a checkpoint, with the method of the run, `own`.
+    pub(super) fn save(&self, bursts: &Bursts, own: Option<&Integration>, out: &mut Checkpoint) {
+        let Open { nonsmooth, contacts, control, rubbing, halvings, .. } = self;
+        let quiet = bursts.quiet.unwrap_or_default();
+        let counts = [quiet, bursts.count, *halvings, u32::from(*rubbing)].map(f64::from);
+        out.put("burst", &[bursts.step, bursts.longest, counts[0], counts[1], counts[2], counts[3]]);
+        if let Some(contacts) = contacts {
+            out.put("burst.contacts", &contacts.memory());
+        }
+        if let Some(control) = control {
+            out.put("burst.control", &control.memory());
+        }
+        if let Some(own) = own {
+            let mut memory = Checkpoint::default();
+            own.save(&mut memory);
+            out.put_all(OWN, &memory);
+        }
+        nonsmooth.save(out);
+    }
+}
+
+impl Run {
+    /// Takes up the burst in which a run ended, from its `state`; the run has taken up all else.
+    pub(super) fn reopen(
+        &mut self,
+        system: &mut dyn System,
+        integrator: &mut Integration,
+        from: &Checkpoint,
+        state: &mut State,
+        plan: &Plan,
+    ) -> Result<(), NotResumed> {
+        let [step, longest, quiet, count, halvings, rubbing] = from.finite("burst")?;
+        if !(step > 0.0 && longest >= step) {
+            return Err(NotResumed::Invalid("burst".to_owned()));
+        }
+        (self.bursts.step, self.bursts.longest) = (step, longest);
+        (self.bursts.quiet, self.bursts.count) = (Some(quiet as u32), count as u32);
+        let (mut contacts, mut control) = (self.contacts.take(), self.control.take());
+        if let Some(contacts) = &mut contacts {
+            contacts.recall(from.numbers("burst.contacts")?);
+        }
+        if let Some(control) = &mut control {
+            let memory: [f64; 4] = from.numbers("burst.control")?;
+            if !(memory[0] > 0.0 && memory[0].is_finite()) {
+                return Err(NotResumed::Invalid("burst.control".to_owned()));
+            }
+            control.recall(memory);
+        }
+        self.contacts = Contacts::new(system, state).and_then(Contacts::of_indicators);
+        if let Some(contacts) = &mut self.contacts {
+            contacts.recall(from.numbers("contacts")?);
+        }
+        let failed = |error: &dyn std::fmt::Display| NotResumed::Failed(error.to_string());
+        let method = method().map_err(|error| failed(&error))?;
+        let started = method.start(system, &mut state.clone(), step);
+        let mut nonsmooth = started.map_err(|error| failed(&error))?;
+        nonsmooth.resume(system, from)?;
+        integrator.resume(system, &from.part(OWN))?;
+        let stop = next_break(system, nonsmooth.info(), state.t, plan.end);
+        let recalled = Segment::recall(from.finite("segment")?, stop, step);
+        // A run to another end divides what is left anew.
+        let (segment, at) = recalled.unwrap_or_else(|_| (Segment::new(state.t, stop, step), state.t));
+        if (state.t - at).abs() <= 1e-9 * segment.step {
+            state.t = at;
+        }
+        self.segment = Some(segment);
+        let (begin, halvings, rubbing) = (state.t, halvings as u32, rubbing != 0.0);
+        self.open = Some(Open { nonsmooth, contacts, control, begin, rubbing, halvings });
+        Ok(())
     }
 }

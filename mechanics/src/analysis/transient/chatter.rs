@@ -107,8 +107,6 @@ pub(super) struct Bursts {
     pub(super) count: u32,
     pub(super) step: f64,
     pub(super) longest: f64,
-    /// Whether the run ended in one.
-    pub(super) open: bool,
 }
 
 impl Default for Bursts {
@@ -121,15 +119,14 @@ impl Default for Bursts {
             count: 0,
             step: 0.0,
             longest: 0.0,
-            open: false,
         }
     }
 }
 
 impl Bursts {
-    /// Counts a step of a burst; whether it is over.
-    pub(super) fn count(&mut self, system: &dyn System, h: f64, event: Option<&Event>) -> bool {
-        let Some(quiet) = &mut self.quiet else { return false };
+    /// Counts a step of a burst.
+    pub(super) fn count(&mut self, system: &dyn System, h: f64, event: Option<&Event>) {
+        let Some(quiet) = &mut self.quiet else { return };
         *quiet = if event.is_some() { 0 } else { *quiet + 1 };
         if let Some(Event { kind: EventKind::Impact { impulses, rates, .. }, .. }) = event {
             for (i, set) in system.rows().iter().enumerate() {
@@ -142,7 +139,11 @@ impl Bursts {
                 }
             }
         }
-        *quiet >= self.hold
+    }
+
+    /// Whether no contact has opened or closed for so many steps that a burst is over.
+    pub(super) fn rest(&self) -> bool {
+        self.quiet.is_some_and(|quiet| quiet >= self.hold)
     }
 
     /// The step that is due next, if it is another than before.

@@ -33,6 +33,7 @@ use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, RowWeights, Side, State, System};
 use adaptive::adapt;
 use breaks::{is_fixed, jump_at, next_break, stop};
+use burst::Open;
 use chatter::{Bursts, Together};
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
 use rubbing::Rubbing;
@@ -118,6 +119,8 @@ struct Run {
     /// Whether the next step is the first of a smooth motion.
     begins: bool,
     bursts: Bursts,
+    /// The burst in which the run is.
+    open: Option<Open>,
     rubbing: Rubbing,
 }
 
@@ -149,6 +152,7 @@ impl Run {
             gaps: vec![0.0; state.lambda.len()],
             begins: true,
             bursts: Bursts::default(),
+            open: None,
             rubbing: Rubbing::new(system.rows()),
         }
     }
@@ -226,9 +230,10 @@ impl Run {
         observer: &mut dyn Observer,
     ) -> Result<Ending, RunError> {
         loop {
-            if let Some(mean) = self.bursts.due.take()
-                && let Some(ending) = self.burst(system, integrator, state, (plan, mean), observer)?
-            {
+            if let Some(mean) = self.bursts.due.take() {
+                self.begin_burst(system, integrator, state, (plan, mean), observer)?;
+            }
+            if let Some(ending) = self.follow(system, integrator, state, plan, observer)? {
                 return Ok(ending);
             }
             if let Leg::Ended(ending) = self.leg(system, integrator, state, plan, observer)? {
@@ -306,7 +311,8 @@ impl Run {
                 }
             }
             observer.passing(system, &next);
-            let rests = self.bursts.count(system, h, struck.as_ref());
+            self.bursts.count(system, h, struck.as_ref());
+            let rests = self.bursts.rest();
             if report.unsettled > 0.0 {
                 observer.unsettled(next.t, report.unsettled);
             }
@@ -347,20 +353,23 @@ impl Run {
                 }
                 self.bursts.due = self.bursts.due.or(contacts.chatter.count(state.t, contact, left));
             }
+            let settles = rests && !self.rubbing.is_on(state);
+            if self.bursts.due.is_none()
+                && !settles
+                && let Some(step) = self.bursts.longer()
+                && state.t < plan.end
+            {
+                let end = next_break(system, integrator.info(), state.t, plan.end);
+                self.segment = Some(Segment::new(state.t, end, step));
+            }
             if observer.step(state).is_break() && state.t < plan.end {
                 return Ok(Leg::Ended(Ending::Stopped));
             }
             if self.bursts.due.is_some() && state.t < plan.end {
                 return Ok(Leg::Chatters);
             }
-            if rests && !self.rubbing.is_on(state) && state.t < plan.end {
+            if settles && state.t < plan.end {
                 return Ok(Leg::Settled);
-            }
-            if let Some(step) = self.bursts.longer()
-                && state.t < plan.end
-            {
-                let end = next_break(system, integrator.info(), state.t, plan.end);
-                self.segment = Some(Segment::new(state.t, end, step));
             }
         }
         Ok(Leg::Ended(Ending::Finished))

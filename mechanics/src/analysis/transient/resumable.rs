@@ -54,11 +54,7 @@ impl Run {
         from.check_numbers()?;
         from.fill_state("", state)?;
         let [origin, samples, begins, open] = from.finite("run")?;
-        if open != 0.0 {
-            return Err(NotResumed::Failed(
-                "it ended while contacts chattered, or rubbed in space, with another method than its own: run the case from its start".to_owned(),
-            ));
-        }
+        let open = open != 0.0;
         if !(origin <= state.t && samples >= 0.0) {
             return Err(NotResumed::Invalid("run".to_owned()));
         }
@@ -71,7 +67,7 @@ impl Run {
             let before = (state.t - origin) / plan.sample;
             self.samples = (before + 1e-9).floor().max(0.0) as u64 + 1;
         }
-        if let Some(asked) = plan.step.filter(|_| is_fixed(integrator.info())) {
+        if let Some(asked) = plan.step.filter(|_| !open && is_fixed(integrator.info())) {
             let segment = from.finite("segment")?;
             let stop = next_break(system, integrator.info(), state.t, plan.end);
             let recalled = if jump_at(system, integrator.info(), state.t).is_some() {
@@ -96,18 +92,18 @@ impl Run {
         if integrator.resolves_contacts() {
             self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
-        let step = self.segment.map_or(plan.end - origin, |segment| segment.step);
+        let step = self.segment.map(|segment| segment.step).or(plan.step).unwrap_or(plan.end - origin);
         let started = integrator.start(system, &mut state.clone(), step);
         let mut integration = started.map_err(|error| NotResumed::Failed(error.to_string()))?;
         self.set_control(system, integrator.info(), state, plan);
-        if let Some(control) = &mut self.control {
+        if let Some(control) = self.control.as_mut().filter(|_| !open) {
             let memory: [f64; 4] = from.numbers("control")?;
             if !(memory[0] > 0.0 && memory[0].is_finite()) {
                 return Err(NotResumed::Invalid("control".to_owned()));
             }
             control.recall(memory);
         }
-        if let Some(contacts) = &mut self.contacts {
+        if let Some(contacts) = self.contacts.as_mut().filter(|_| !open) {
             contacts.recall(from.numbers("contacts")?);
         }
         if observer.wants_energy_balance() {
@@ -115,8 +111,12 @@ impl Run {
             balance.recall(from)?;
             self.balance = Some(balance);
         }
-        integration.resume(system, from)?;
-        observer.begin(integrator.resolves_contacts());
+        if open {
+            self.reopen(system, &mut integration, from, state, plan)?;
+        } else {
+            integration.resume(system, from)?;
+        }
+        observer.begin(open || integrator.resolves_contacts());
         observer.resume(from)?;
         Ok(integration)
     }
@@ -131,7 +131,7 @@ impl Run {
     ) -> Checkpoint {
         let mut out = Checkpoint::of_this_format();
         out.put_state("", state);
-        let [begins, open] = [self.begins, self.bursts.open].map(|flag| f64::from(u8::from(flag)));
+        let [begins, open] = [self.begins, self.open.is_some()].map(|flag| f64::from(u8::from(flag)));
         out.put("run", &[self.origin, self.samples as f64, begins, open]);
         out.put("bursts", &self.bursts.memory());
         out.put("sample", &[sample]);
@@ -148,8 +148,10 @@ impl Run {
         if let Some(balance) = &self.balance {
             balance.save(&mut out);
         }
-        if let Some(integration) = integration {
-            integration.save(&mut out);
+        match (&self.open, integration) {
+            (Some(open), own) => open.save(&self.bursts, own, &mut out),
+            (None, Some(integration)) => integration.save(&mut out),
+            (None, None) => {}
         }
         observer.save(&mut out);
         out
