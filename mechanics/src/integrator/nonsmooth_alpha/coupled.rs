@@ -48,6 +48,7 @@ impl Coupled {
             list.fill(0.0);
         }
         let joints = work.rows.sets().contains(&Set::Free);
+        let mut iterations = 0;
         work.convergence.begin(true);
         loop {
             self.place(work, formulas, system, h, to);
@@ -121,7 +122,7 @@ impl Coupled {
                 self.place(work, formulas, system, h, to);
                 system.residual(to, &mut self.residual);
                 work.difference(system, to, Some((&self.velocity, &self.impulses)), &self.residual);
-                work.turn(|k| self.impulses[k]);
+                work.turn(&self.impulses);
                 system.constraint(to, RowWeights::VELOCITY, &mut work.rates);
                 for (k, set) in work.rows.sets().iter().enumerate() {
                     work.rhs[n + k] = if *set == Set::Free { work.rates[k] / h } else { 0.0 };
@@ -141,6 +142,9 @@ impl Coupled {
                 }
             }
             let size = h * h * (square / n.max(1) as f64).sqrt();
+            if new {
+                iterations += work.begin_anew();
+            }
             match work.convergence.judge(size) {
                 Progress::Converged if !new => break,
                 Progress::Converged | Progress::Continue => {}
@@ -162,7 +166,7 @@ impl Coupled {
         if !to.is_finite() {
             return Err(failure::not_finite(system, work.from.t, h, to));
         }
-        let iterations = work.convergence.iterations();
+        iterations += work.convergence.iterations();
         Ok(StepReport { iterations, unsettled: work.unsettled(), ..StepReport::default() })
     }
 

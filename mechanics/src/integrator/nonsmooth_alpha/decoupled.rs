@@ -61,6 +61,7 @@ impl Work {
         if level == Level::Velocity {
             self.forces.fill(0.0);
         }
+        let mut iterations = 0;
         self.convergence.begin(true);
         loop {
             for i in 0..n {
@@ -86,10 +87,7 @@ impl Work {
                 };
             }
             if level == Level::Velocity {
-                let (now, smooth) =
-                    (std::mem::take(&mut self.trial.lambda), std::mem::take(&mut self.smooth.lambda));
-                self.turn(|k| now[k] - smooth[k]);
-                (self.trial.lambda, self.smooth.lambda) = (now, smooth);
+                self.push();
             }
             self.rhs.iter_mut().for_each(|r| *r = -*r);
             let weights = Weights { a: 1.0, v: to_v, q: to_q, increment: Some(&self.increment) };
@@ -107,14 +105,17 @@ impl Work {
                 square += (self.rhs[i] / self.scale[i]).powi(2);
             }
             for k in 0..m {
-                self.trial.lambda[k] = if self.rows.sets()[k] == Set::Free {
-                    self.trial.lambda[k] + self.rhs[n + k]
-                } else {
-                    self.forces[k]
-                };
+                if self.rows.sets()[k] == Set::Free {
+                    self.trial.lambda[k] += self.rhs[n + k];
+                } else if level == Level::Position {
+                    self.trial.lambda[k] = self.forces[k];
+                }
             }
             counters.add_full_iteration(1 + self.impulses.len() as u64);
             let size = h * h * (square / n.max(1) as f64).sqrt();
+            if new {
+                iterations += self.begin_anew();
+            }
             match self.convergence.judge(size) {
                 Progress::Converged if !new => break,
                 Progress::Converged | Progress::Continue => {}
@@ -130,7 +131,28 @@ impl Work {
             system.retract(&self.smooth.q, &self.increment, &mut to.q);
             self.correction.copy_from_slice(&self.increment);
             system.constraint(to, RowWeights::POSITION, &mut self.gaps);
+        } else {
+            for k in (0..m).filter(|k| self.rows.sets()[*k] != Set::Free) {
+                self.trial.lambda[k] = self.forces[k];
+            }
         }
-        Ok(self.convergence.iterations())
+        Ok(iterations + self.convergence.iterations())
+    }
+
+    /// Subtracts the forces of the contacts of a correction of velocities from the residual in `rhs`: along the directions of the end of the step, which it does not
+    /// change, and those that have turned into them. Along the ones of the trial state, forces that balance each other would not, and the iteration would not end.
+    fn push(&mut self) {
+        for &(row, j, x) in self.rows.stored() {
+            if self.rows.sets()[row] != Set::Free {
+                self.rhs[j] -= x * self.forces[row];
+            }
+        }
+        let mut change = std::mem::take(&mut self.change);
+        for (k, change) in change.iter_mut().enumerate() {
+            let free = self.rows.sets()[k] == Set::Free;
+            *change = if free { self.trial.lambda[k] - self.smooth.lambda[k] } else { self.forces[k] };
+        }
+        self.turn(&change);
+        self.change = change;
     }
 }

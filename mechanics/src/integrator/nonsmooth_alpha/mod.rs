@@ -124,6 +124,8 @@ struct Work {
     correction: Vec<f64>,
     uncorrected: Cell<Vec<f64>>,
     forces: Vec<f64>,
+    /// What a correction of velocities changes of the multipliers.
+    change: Vec<f64>,
     /// Multipliers of the smooth motion at the start of the next step, and the mean ones of the accepted step.
     held: Vec<f64>,
     mean: Vec<f64>,
@@ -183,6 +185,7 @@ impl Work {
             correction: zeros(n),
             uncorrected: Cell::new(zeros(state().q.len())),
             forces: zeros(m),
+            change: zeros(m),
             held: zeros(m),
             mean: zeros(m),
             rhs: zeros(n + m),
@@ -227,13 +230,13 @@ impl Work {
     }
 
     /// Adds ½ (Gₙ₊₁ − Gₙ)ᵀ λ to `rhs`, with the stored Gₙ₊₁.
-    fn turn(&mut self, lambda: impl Fn(usize) -> f64) {
+    fn turn(&mut self, lambda: &[f64]) {
         if !self.turns {
             return;
         }
         for (part, rows) in [(0.5, &self.rows), (-0.5, &self.before)] {
             for &(row, j, x) in rows.stored().iter().filter(|(row, ..)| self.acted[*row]) {
-                self.rhs[j] += part * x * lambda(row);
+                self.rhs[j] += part * x * lambda[row];
             }
         }
     }
@@ -263,6 +266,13 @@ impl Work {
             }
         }
         new
+    }
+
+    /// Judges no increment by one before it, of which other contacts took part; gives the iterations until then.
+    fn begin_anew(&mut self) -> u32 {
+        let before = self.convergence.iterations();
+        self.convergence.begin(true);
+        before
     }
 
     /// Solves for the multipliers `forces` of the contacts with `matrix`, or with those of `other`, and adds what they do to
