@@ -72,9 +72,11 @@ pub struct Augmented {
     projection: Vec<f64>,
     /// G δ of a step.
     turn: Vec<f64>,
-    /// Multipliers of the gradients' steps.
+    /// Multipliers of the gradients' steps, those that they begin with, and those of the least residual, with that.
     ahead: Vec<f64>,
     next: Vec<f64>,
+    guess: Vec<f64>,
+    best: (f64, Vec<f64>),
     /// The contact of each normal row.
     of_normal: Vec<usize>,
     /// ρ of the attempt in units of the stiffness.
@@ -114,6 +116,8 @@ impl Augmented {
             projection: list(),
             ahead: list(),
             next: list(),
+            guess: list(),
+            best: (f64::INFINITY, list()),
             of_normal: Vec::with_capacity(rows),
             ..Augmented::default()
         }
@@ -161,6 +165,12 @@ impl Augmented {
         self.entries.clear();
         self.begins.clear();
         self.begins.push(0);
+        self.guess.clear();
+    }
+
+    /// A guess of the multiplier of the row pushed last, where all rows get one: Newton's method begins with the motion that they make, gradients with them.
+    pub fn guess(&mut self, multiplier: f64) {
+        self.guess.push(multiplier);
     }
 
     /// Gives all contacts one stiffness, of their normal rows and of those of friction: norms are measured by it.
@@ -203,11 +213,13 @@ impl Augmented {
         self.rates.extend_from_slice(b);
         self.measure();
         (self.iterations, self.residual, self.unsettled) = (0, f64::INFINITY, 0.0);
+        self.best.0 = f64::INFINITY;
         let mut y = std::mem::take(&mut self.motion);
         let [first, others @ ..] = STIFFNESSES;
         let settled = self.attempt(factored, b, lambda, &mut y, first)
             || self.descend(factored, b, lambda, &mut y)
-            || others.into_iter().any(|ratio| self.attempt(factored, b, lambda, &mut y, ratio));
+            || others.into_iter().any(|ratio| self.attempt(factored, b, lambda, &mut y, ratio))
+            || self.take_best(factored, b, lambda, &mut y);
         if settled {
             x.iter_mut().zip(&y).for_each(|(x, y)| *x += y);
         }
@@ -249,7 +261,14 @@ impl Augmented {
         y: &mut [f64],
         ratio: f64,
     ) -> bool {
-        y.fill(0.0);
+        if self.guess.len() == b.len() && ratio == STIFFNESSES[0] {
+            // The motion of the guess shows what every contact does.
+            let guess = std::mem::take(&mut self.guess);
+            self.rates_by(factored, b, &guess, y);
+            self.guess = guess;
+        } else {
+            y.fill(0.0);
+        }
         self.ratio = ratio;
         self.centre.clear();
         self.centre.extend_from_slice(&self.start);

@@ -24,6 +24,8 @@ pub(super) struct Impulses {
     w: Vec<f64>,
     b: Vec<f64>,
     solution: Vec<f64>,
+    /// Of every row of the system the multiplier found last, or one like it.
+    guess: Vec<f64>,
     /// A⁻¹ Gᵀ of each row.
     images: Vec<f64>,
     /// For many rows, whose products have room in A.
@@ -54,8 +56,14 @@ impl Impulses {
             w: Vec::with_capacity(rows * rows),
             b: Vec::with_capacity(rows),
             solution: Vec::with_capacity(rows),
+            guess: vec![0.0; system.rows().len()],
             images: vec![0.0; rows * order],
         }
+    }
+
+    /// Takes these multipliers of all rows for near to those that are sought.
+    pub(super) fn guess(&mut self, multipliers: &[f64]) {
+        self.guess.copy_from_slice(multipliers);
     }
 
     /// Number of rows that take part.
@@ -123,12 +131,15 @@ impl Impulses {
             self.solution.clear();
             for &row in &self.rows {
                 many.push(jacobian.of_row(row).iter().map(|&(_, j, entry)| (j, entry)));
+                many.guess(self.guess[row]);
                 self.b.push(value(row) + along(row, x));
                 self.solution.push(p[row]);
             }
             if many.solve(matrix, &self.b, &mut self.solution, x).is_ok() {
                 self.residual = many.unsettled;
-                self.rows.iter().zip(&self.solution).for_each(|(&row, x)| p[row] = *x);
+                for (&row, x) in self.rows.iter().zip(&self.solution) {
+                    (p[row], self.guess[row]) = (*x, *x);
+                }
                 return Ok(());
             }
         }

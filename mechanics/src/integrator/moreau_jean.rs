@@ -112,6 +112,8 @@ impl MoreauSteps {
         to.copy_modes(from);
         self.middle.copy_modes(from);
         self.middle.memory.copy_from_slice(&from.memory);
+        self.impulses.iter_mut().zip(&from.lambda).for_each(|(p, lambda)| *p = h * lambda);
+        self.part.guess(&self.impulses);
         self.impulses.fill(0.0);
         self.convergence.begin(true);
         loop {

@@ -24,14 +24,18 @@ const STEPS: u32 = 10_000;
 /// Steps between two looks at the residual, and the residual at which they end.
 const LOOK: u32 = 25;
 const CLOSE: f64 = 1e-11;
-/// Steps in which the residual falls, or else it falls no further.
+/// Steps in which the residual falls, or else it falls no further; those of a lenient problem.
 const PATIENCE: u32 = 1500;
+const LENIENT: u32 = 250;
+/// Residual up to which the best multipliers of a lenient problem are taken, if no method does better.
+const TAKEN: f64 = 1e-3;
 /// Powers that λ takes, and a bound over what they give.
 const POWERS: u32 = 40;
 const SLACK: f64 = 1.05;
 
 impl Augmented {
-    /// The same, where Λ is taken too whose residual falls no further than 1e-5 of the largest: whoever asks for that tells what is [left](Augmented::unsettled).
+    /// The same, where Λ is taken too whose residual falls no further than 1e-5 of the largest, or 1e-3 where nothing else is found: whoever asks for that tells what is
+    /// [left](Augmented::unsettled).
     #[must_use]
     pub fn lenient(self) -> Augmented {
         Augmented { lenient: true, ..self }
@@ -49,15 +53,19 @@ impl Augmented {
             return false;
         }
         let (mut ahead, mut next) = (std::mem::take(&mut self.ahead), std::mem::take(&mut self.next));
+        let mut best = (f64::INFINITY, std::mem::take(&mut self.best.1));
         for list in [&mut ahead, &mut next] {
             list.clear();
-            list.extend_from_slice(&self.start);
+            list.extend_from_slice(if self.guess.len() == b.len() { &self.guess } else { &self.start });
         }
         let length = 1.0 / self.largest(factored, &mut next, y);
         self.onto_cones(&mut ahead);
         lambda.copy_from_slice(&ahead);
-        let most = if self.lenient { BESIDE } else { TOLERABLE };
-        let (mut t, mut least, mut fell) = (1.0_f64, f64::INFINITY, 0);
+        let (most, patience) = if self.lenient { (BESIDE, LENIENT) } else { (TOLERABLE, PATIENCE) };
+        self.move_by(factored, b, lambda, y);
+        // Where more than one Λ is as good, that which is there stays.
+        keep_best(&mut best, self.residual, lambda, FALLING);
+        let (mut t, mut least, mut fell) = (1.0_f64, self.residual, 0);
         for step in 1..=STEPS {
             self.rates_by(factored, b, &ahead, y);
             next.copy_from_slice(&ahead);
@@ -84,21 +92,39 @@ impl Augmented {
             if step % LOOK == 0 {
                 self.iterations += LOOK as usize;
                 self.move_by(factored, b, lambda, y);
+                keep_best(&mut best, self.residual, lambda, if fell == 0 { FALLING } else { 1.0 });
                 if self.residual < FALLING * least {
                     (least, fell) = (self.residual, step);
                 }
-                let stands = self.residual <= most && step - fell >= PATIENCE;
+                let stands = best.0 <= most && step - fell >= patience;
                 if self.residual <= CLOSE || stands || !self.residual.is_finite() {
                     break;
                 }
             }
         }
         (self.ahead, self.next) = (ahead, next);
-        let settled = self.residual <= most;
-        if settled && self.residual > TOLERABLE {
+        self.best = best;
+        self.best.0 <= most && self.take_best(factored, b, lambda, y)
+    }
+
+    /// Takes the multipliers of the least residual that gradients have met, where the problem is lenient or they have settled.
+    pub(super) fn take_best(
+        &mut self,
+        factored: &mut Matrix,
+        b: &[f64],
+        lambda: &mut [f64],
+        y: &mut [f64],
+    ) -> bool {
+        let most = if self.lenient { TAKEN } else { TOLERABLE };
+        if self.best.1.len() != lambda.len() || !(self.best.0 <= most) {
+            return false;
+        }
+        lambda.copy_from_slice(&self.best.1);
+        self.move_by(factored, b, lambda, y);
+        if self.residual > TOLERABLE {
             self.unsettled = self.residual;
         }
-        settled
+        true
     }
 
     /// u = b + G A⁻¹ Gᵀ (Λ − Λ₀), by way of y.
@@ -166,6 +192,15 @@ impl Augmented {
             let part = if size > 0.0 { mu * onto / size } else { 0.0 };
             friction.iter().for_each(|i| values[*i] *= part);
         }
+    }
+}
+
+/// Keeps Λ where its residual is less than this part of the least so far.
+fn keep_best(best: &mut (f64, Vec<f64>), residual: f64, lambda: &[f64], part: f64) {
+    if residual < part * best.0 {
+        best.0 = residual;
+        best.1.clear();
+        best.1.extend_from_slice(lambda);
     }
 }
 

@@ -48,7 +48,7 @@ impl Coupled {
             list.fill(0.0);
         }
         let joints = work.rows.sets().contains(&Set::Free);
-        let mut iterations = 0;
+        let (mut iterations, mut largest) = (0, 0.0_f64);
         work.convergence.begin(true);
         loop {
             self.place(work, formulas, system, h, to);
@@ -145,9 +145,10 @@ impl Coupled {
             if new {
                 iterations += work.begin_anew();
             }
-            match work.convergence.judge(size) {
-                Progress::Converged if !new => break,
-                Progress::Converged | Progress::Continue => {}
+            largest = largest.max(size);
+            match work.progress(size, largest, new) {
+                Progress::Converged => break,
+                Progress::Continue => {}
                 Progress::Diverged => return Err(work.not_converged(system, h, size)),
             }
         }

@@ -61,7 +61,7 @@ impl Work {
         if level == Level::Velocity {
             self.forces.fill(0.0);
         }
-        let mut iterations = 0;
+        let (mut iterations, mut largest) = (0, 0.0_f64);
         self.convergence.begin(true);
         loop {
             for i in 0..n {
@@ -116,9 +116,10 @@ impl Work {
             if new {
                 iterations += self.begin_anew();
             }
-            match self.convergence.judge(size) {
-                Progress::Converged if !new => break,
-                Progress::Converged | Progress::Continue => {}
+            largest = largest.max(size);
+            match self.progress(size, largest, new) {
+                Progress::Converged => break,
+                Progress::Continue => {}
                 Progress::Diverged => return Err(self.not_converged(system, h, size)),
             }
         }

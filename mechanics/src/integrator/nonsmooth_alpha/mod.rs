@@ -53,7 +53,7 @@ use super::impulses::Impulses;
 use super::rows::Rows;
 use super::{
     Attempt, Checkpoint, Convergence, Counters, GeneralizedAlpha, Info, Integrator, InvalidParameter,
-    NotResumed, Span, StepError, StepReport, Stepper, failure, hermite,
+    NotResumed, Progress, Span, StepError, StepReport, Stepper, failure, hermite,
 };
 use crate::contact::Unresolved;
 use crate::linalg::Matrix;
@@ -89,6 +89,9 @@ enum Scheme {
     Decoupled(Box<AlphaSteps>),
     Coupled(Box<Coupled>),
 }
+
+/// Largest increment, over the largest of a correction, at which it ends where the forces of contacts do not settle.
+const LEFT: f64 = 0.1;
 
 /// What a correction imposes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -219,6 +222,7 @@ impl Work {
         let acted = self.acted.iter_mut().zip(&from.mode).zip(&self.twists);
         acted.for_each(|((acted, mode), twists)| *acted = *mode != Mode::Open && !twists);
         open(self.rows.sets(), &mut self.from);
+        self.impulses.guess(&from.lambda);
     }
 
     /// Keeps the jacobian at the start of the step, where contacts that acted then take part.
@@ -273,6 +277,17 @@ impl Work {
         let before = self.convergence.iterations();
         self.convergence.begin(true);
         before
+    }
+
+    /// What follows from an increment of this size, and the largest one of the correction; `new` contacts take part since it. Where the forces have not settled, increments are
+    /// no smaller than what is left of them lets them be.
+    fn progress(&mut self, size: f64, largest: f64, new: bool) -> Progress {
+        let unsettled = self.unsettled() > 0.0;
+        match self.convergence.judge(size) {
+            _ if new && size.is_finite() => Progress::Continue,
+            Progress::Diverged if unsettled && size <= LEFT * largest => Progress::Converged,
+            progress => progress,
+        }
     }
 
     /// Solves for the multipliers `forces` of the contacts with `matrix`, or with those of `other`, and adds what they do to
