@@ -253,6 +253,54 @@ fn a_heap_settles() {
     );
 }
 
+/// So many balls of 2 cm and 0.26 kg that fall into a tube of 12 × 12 cm, three of them in a row from wall to wall, and touch each other.
+fn heap(balls: usize, integrator: &str) -> String {
+    let law = "law = { kind = 'constraint', restitution = 0.3, friction = 0.3 }\nradius = '2 cm'\n";
+    let mut text = format!(
+        "gravity = [0, 0, -9.81]\nintegrator = {integrator}\nrun = {{ duration = 0.9 }}\noutput = {{ step = '5 ms' }}\n"
+    );
+    let part = |i: usize, ratio: f64| 0.06 * ((ratio * i as f64).fract() - 0.5);
+    for i in 0..balls {
+        let place = [part(i, 0.618), part(i, 0.414), 0.03 + 0.045 * i as f64];
+        text.push_str(&format!(
+            "[[body]]\nname = 'b{i}'\nmass = 0.26\ninertia = {{ kind = 'sphere', radius = '2 cm' }}\nposition = {place:?}\n"
+        ));
+    }
+    for i in 0..balls {
+        let walls = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0]];
+        for (k, normal) in walls.into_iter().enumerate() {
+            let point = normal.map(|x: f64| if k == 0 { 0.0 } else { -0.06 * x });
+            text.push_str(&format!(
+                "[[contact]]\nname = 'w{k}-{i}'\non = 'b{i}'\nobstacle = {{ kind = 'plane', normal = {normal:?}, point = {point:?} }}\n{law}"
+            ));
+        }
+        for j in i + 1..balls {
+            text.push_str(&format!(
+                "[[contact]]\nname = 'c{i}-{j}'\non = 'b{i}'\nmount = 'b{j}'\nobstacle = {{ kind = 'sphere', radius = '2 cm' }}\n{law}"
+            ));
+        }
+    }
+    text
+}
+
+/// A heap of 68 contacts, more of which close than its balls have motions, comes to rest by every method that resolves contacts in its steps, and the floor carries it.
+#[test]
+fn a_heap_comes_to_rest_and_the_floor_carries_its_weight() {
+    for integrator in ["nonsmooth-generalized-alpha", "moreau-jean"] {
+        let text = heap(8, &format!("{{ kind = '{integrator}', step = '0.5 ms' }}"));
+        let run = integrate(&read(&text)).unwrap();
+        assert_eq!(run.failure, None, "{integrator}");
+        let last = |name: String| run.column(&name).last().copied().unwrap();
+        let weight = 8.0 * 0.26 * 9.81;
+        let carried: f64 = (0..8).map(|i| last(format!("w0-{i}.force"))).sum();
+        assert!((carried / weight - 1.0).abs() < 1e-9, "{integrator}: {carried} of {weight}");
+        assert!(last("energy.kinetic".to_owned()) < 2e-3, "{integrator}");
+        // They have fallen by 3.7 J.
+        let balance = run.column("energy.balance").iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        assert!(balance < 0.037, "{integrator}: {balance}");
+    }
+}
+
 /// In the last of six steps of a heap no forces fit the motion to 1e-8: what is left is told. (Another order of the operations may find some that do.)
 #[test]
 fn forces_that_do_not_settle_are_told() {

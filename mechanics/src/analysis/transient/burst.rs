@@ -15,12 +15,12 @@
 //! closed contacts depend on each other, it goes on with nonsmooth steps.
 
 use super::breaks::{is_fixed, next_break};
-use super::chatter::Bursts;
 use super::contacts::Contacts;
+use super::open_burst::{OWN, Open};
 use super::segment::Segment;
 use super::{Burst, Ending, Event, EventKind, Leg, Observer, Plan, Run, RunError};
 use crate::integrator::{
-    Checkpoint, Integration, Integrator, InvalidParameter, NonsmoothAlpha, NotResumed, StepControl, StepError,
+    Checkpoint, Integration, Integrator, InvalidParameter, NonsmoothAlpha, NotResumed, StepError,
 };
 use crate::system::{Mode, Set, State, System};
 
@@ -29,8 +29,6 @@ const SPECTRAL_RADIUS: f64 = 0.8;
 /// Longest step over the longest that the method of the run would take, and the first one over that.
 const PART: f64 = 0.25;
 const FIRST_PART: f64 = 0.125;
-/// What the lists of the method of the run are called in a checkpoint within a burst.
-const OWN: &str = "own.";
 /// Halvings of a step that does not converge.
 const HALVINGS: u32 = 12;
 
@@ -189,40 +187,6 @@ impl Run {
 /// The nonsmooth method of a burst.
 fn method() -> Result<NonsmoothAlpha, InvalidParameter> {
     NonsmoothAlpha::decoupled(SPECTRAL_RADIUS)
-}
-
-/// A burst in which a run is, and what the method of the run has left to go on with behind it.
-pub(super) struct Open {
-    nonsmooth: Integration,
-    contacts: Option<Contacts>,
-    control: Option<StepControl>,
-    /// Where it began, or the run was taken up in it \[s\].
-    begin: f64,
-    rubbing: bool,
-    /// Halvings of the step so far.
-    halvings: u32,
-}
-
-impl Open {
-    /// Adds what later steps depend on to a checkpoint, with the method of the run, `own`.
-    pub(super) fn save(&self, bursts: &Bursts, own: Option<&Integration>, out: &mut Checkpoint) {
-        let Open { nonsmooth, contacts, control, rubbing, halvings, .. } = self;
-        let quiet = bursts.quiet.unwrap_or_default();
-        let counts = [quiet, bursts.count, *halvings, u32::from(*rubbing)].map(f64::from);
-        out.put("burst", &[bursts.step, bursts.longest, counts[0], counts[1], counts[2], counts[3]]);
-        if let Some(contacts) = contacts {
-            out.put("burst.contacts", &contacts.memory());
-        }
-        if let Some(control) = control {
-            out.put("burst.control", &control.memory());
-        }
-        if let Some(own) = own {
-            let mut memory = Checkpoint::default();
-            own.save(&mut memory);
-            out.put_all(OWN, &memory);
-        }
-        nonsmooth.save(out);
-    }
 }
 
 impl Run {

@@ -12,6 +12,7 @@ mod contacts;
 mod ending;
 mod locate;
 mod observer;
+mod open_burst;
 mod plan;
 mod resumable;
 mod rubbing;
@@ -33,9 +34,9 @@ use crate::quadrature::Gauss;
 use crate::system::{Crossing, Jump, RowWeights, Side, State, System};
 use adaptive::adapt;
 use breaks::{is_fixed, jump_at, next_break, stop};
-use burst::Open;
 use chatter::{Bursts, Together};
 use contacts::{ARC, Contacts, Unseen, approaches, loss, struck};
+use open_burst::Open;
 use rubbing::Rubbing;
 use segment::Segment;
 
