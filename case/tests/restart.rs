@@ -282,15 +282,46 @@ radius = '5 cm'
 obstacle = { kind = 'plane', normal = [0, 0, 1], motion = { displacement = [0, 0, '-1 m'], amplitude = { kind = 'expression', formula = '8 * max(t - 0.6, 0)^2' } } }
 law = { kind = 'constraint', restitution = 0.2, friction = 0.3 }
 ";
+    // More contacts than motions.
+    const FEET: &str = "
+gravity = [0, 0, -9.81]
+run = { duration = 1 }
+output = { step = '5 ms' }
+[[body]]
+name = 'box'
+mass = 1
+inertia = { kind = 'box', size = [0.3, 0.2, 0.1] }
+position = [0, 0, '6 cm']
+[[contact]]
+on = 'box'
+at = [0.15, 0.1, 0.01]
+obstacle = { kind = 'plane', normal = [0, 0, 1] }
+law = { kind = 'constraint', restitution = 0 }
+[[contact]]
+on = 'box'
+at = [-0.15, 0.1, 0.01]
+obstacle = { kind = 'plane', normal = [0, 0, 1] }
+law = { kind = 'constraint', restitution = 0 }
+[[contact]]
+on = 'box'
+at = [-0.15, -0.1, 0.01]
+obstacle = { kind = 'plane', normal = [0, 0, 1] }
+law = { kind = 'constraint', restitution = 0 }
+[[contact]]
+on = 'box'
+at = [0.15, -0.1, 0.01]
+obstacle = { kind = 'plane', normal = [0, 0, 1] }
+law = { kind = 'constraint', restitution = 0 }
+";
     let folder = tempfile::tempdir().unwrap();
     let case = folder.path().join("case.toml");
-    for text in [ARM, BALL] {
+    for text in [ARM, BALL, FEET] {
         std::fs::write(&case, text).unwrap();
         for integrator in [
             "integrator={kind='radau',tolerance=1e-4}",
             "integrator={kind='generalized-alpha',step='0.5 ms'}",
         ] {
-            let parts = [0.236, 0.37, 0.64, 0.86];
+            let parts = [0.02, 0.236, 0.37, 0.64, 0.86];
             let whole = reading(&case, &[integrator]);
             let is_open = |part: &f64| {
                 let stopped = run(&whole, part * whole.case.duration);

@@ -15,6 +15,7 @@ pub(super) fn of_run(warning: &Warning, fixed: bool) -> String {
         Warning::Grinds { .. } => {
             "; take fewer points, a softer force, or a `constraint` with `nonsmooth-generalized-alpha`"
         }
+        Warning::ImpactGained { .. } => "; no restitution, or a continuous law of force, does not",
         Warning::Unsettled { .. } => "; smaller steps have fewer contacts in one",
         Warning::Chatter { .. } | Warning::Rubbing { .. } => "; `contact-step` makes them shorter",
         Warning::FewStepsAPeriod { .. } => ": use smaller steps or the adaptive method `radau`",

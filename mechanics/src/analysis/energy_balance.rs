@@ -108,6 +108,9 @@ const RIGID: f64 = 1e-6;
 /// rounding makes.
 const ROUNDING: f64 = 1e-12;
 
+/// The same for steps that place what stands again and again.
+const STANDING: f64 = 1e-10;
+
 /// Energy that rounding makes of a system at rest \[J\]: ½ Σ Kᵢᵢ (10⁻¹² wᵢ)², with the stiffness K at `state` and the scales w of the
 /// unknowns.
 pub fn rounding_energy(system: &mut dyn System, state: &State) -> f64 {
@@ -169,7 +172,7 @@ impl Gain {
         let Gain { strain, gravity, kinetic, .. } = self;
         let moving = if *strain < RIGID * kinetic { SWING } else { RIGID };
         let [low, high] = *gravity;
-        let rounding = ROUNDING * low.abs().max(high.abs());
+        let rounding = STANDING * low.abs().max(high.abs());
         let bound = EXCESS * strain + SWING * (high - low) + moving * kinetic + rounding;
         (self.rise > bound.max(f64::MIN_POSITIVE)).then_some(self.rise)
     }

@@ -18,6 +18,8 @@ use crate::linalg::{Matrix, Structure};
 const SOON: usize = 2_000;
 /// Products of relaxation where Newton's method has failed.
 const PRODUCTS: usize = 100_000_000;
+/// Change over the largest multiplier with which the multipliers of the last sweep are taken, if they go to and fro for ever.
+const CLOSE: f64 = 1e-7;
 /// Pivot of W, over its largest entry and m ε, below which it is rounding.
 const ROUNDING: f64 = 8.0;
 
@@ -101,8 +103,12 @@ impl Few {
             // Neither is certain with friction.
             Err(unresolved) => {
                 let sweeps = cone::SWEEPS.min(PRODUCTS / (m * m));
-                cone::relax(laws, (w, b), lambda, sweeps, &mut self.earlier)
-                    .map_err(|relaxed| if relaxed.change <= unresolved.change { relaxed } else { unresolved })
+                match cone::relax(laws, (w, b), lambda, sweeps, &mut self.earlier) {
+                    Err(relaxed) if relaxed.change <= CLOSE => Ok(relaxed.sweeps),
+                    Err(relaxed) if relaxed.change <= unresolved.change => Err(relaxed),
+                    Err(_) => Err(unresolved),
+                    sweeps => sweeps,
+                }
             }
         }
     }

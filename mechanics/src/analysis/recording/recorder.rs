@@ -6,7 +6,7 @@ use super::passing::Passing;
 use super::trajectory::Trajectory;
 use super::warning::Warning;
 use crate::analysis::energy_balance::rounding_energy;
-use crate::analysis::transient::{Burst, Ending, Event, Observer, Plan, Step};
+use crate::analysis::transient::{Burst, Ending, Event, EventKind, Observer, Plan, Step};
 use crate::analysis::violation::Violation;
 use crate::integrator::{Checkpoint, Counters, NotResumed};
 use crate::system::{Channel, Direction, Role, Sink, State, System};
@@ -18,6 +18,8 @@ const IMBALANCE: f64 = 0.2;
 const LOST: f64 = 0.01;
 /// Fewest steps a period of a vibration whose amplitude and phase are followed.
 const STEPS_A_PERIOD: f64 = 10.0;
+/// What an impact adds of energy, over half of what its impulses do with the closing speeds, from which on it is told.
+const GAINED: f64 = 1e-2;
 
 /// Called after every accepted step; `Break` stops the run.
 pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
@@ -62,6 +64,8 @@ pub struct Recorder<'a> {
     rubbing: Option<Bursts>,
     /// When events of continuous forces began to follow each other fast, and the time between them.
     grinds: Option<(f64, f64)>,
+    /// When an impact has added most energy, and that.
+    impact_gain: Option<(f64, f64)>,
     /// Steps in which the forces of contacts did not settle, the largest residual, and when.
     unsettled: Option<(u64, f64, f64)>,
     passing: Passing,
@@ -163,6 +167,7 @@ impl<'a> Recorder<'a> {
             chatter: None,
             rubbing: None,
             grinds: None,
+            impact_gain: None,
             unsettled: None,
             passing,
             fixed: plan.step.is_some(),
@@ -214,8 +219,14 @@ impl<'a> Recorder<'a> {
         let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
         let unsettled =
             self.unsettled.map(|(steps, largest, time)| Warning::Unsettled { steps, largest, time });
-        let of_contacts =
-            stepped_over.into_iter().chain(chatter).chain(rubbing).chain(grinds).chain(unsettled);
+        let gained = self.impact_gain.map(|(time, energy)| Warning::ImpactGained { time, energy });
+        let of_contacts = gained
+            .into_iter()
+            .chain(stepped_over)
+            .chain(chatter)
+            .chain(rubbing)
+            .chain(grinds)
+            .chain(unsettled);
         gain.or(doubtful).into_iter().chain(of_contacts).chain(coarse).collect()
     }
 
@@ -297,6 +308,12 @@ impl Observer for Recorder<'_> {
 
     fn event(&mut self, event: &Event) {
         self.passing.cut();
+        if let EventKind::Impact { lost, impulses, rates, .. } = &event.kind {
+            let exchanged: f64 = impulses.iter().zip(rates).map(|(p, rate)| 0.5 * (p * rate).abs()).sum();
+            if -lost > GAINED * exchanged && -lost > self.impact_gain.map_or(0.0, |(_, gain)| gain) {
+                self.impact_gain = Some((event.time, -lost));
+            }
+        }
         if !self.events.is_empty() {
             self.events.add(event);
         }

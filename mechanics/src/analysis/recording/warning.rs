@@ -50,8 +50,13 @@ pub enum Warning {
     #[error(
         "contacts chatter from t = {begin:.6} s on, faster than their events can be found one by one: {duration:.4} s of the run, in \
          {bursts} burst{}, are computed by nonsmooth steps of at most {step:.2e} s, to which the times of impacts in them are known; they do not resolve what \
-         is fast, of which dampers take {less:.2e} J less than by their power, as the balance of energy says",
-        if *bursts == 1 { "" } else { "s" }
+         is fast{}",
+        if *bursts == 1 { "" } else { "s" },
+        if *less > 0.0 {
+            format!(", of which dampers take {less:.2e} J less than by their power, as the balance of energy says")
+        } else {
+            String::new()
+        }
     )]
     Chatter {
         /// Begin of the first burst \[s\].
@@ -101,6 +106,16 @@ pub enum Warning {
         largest: f64,
         /// End of the step with it \[s\].
         time: f64,
+    },
+    /// An impact added energy.
+    #[error(
+        "the impact at t = {time:.6} s adds {energy:.3e} J: restitution by the closing speed of each contact may do so, with friction or where several contacts strike together"
+    )]
+    ImpactGained {
+        /// Time of the worst one \[s\].
+        time: f64,
+        /// What it adds \[J\].
+        energy: f64,
     },
     /// Fixed steps do not resolve the vibration that makes up most of the motion.
     #[error(

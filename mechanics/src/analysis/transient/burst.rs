@@ -39,9 +39,7 @@ impl Run {
             return;
         }
         self.bursts.due = Some(0.0);
-        for (i, _) in system.rows().iter().enumerate().filter(|(_, set)| **set != Set::Free) {
-            (state.mode[i], state.lambda[i]) = (Mode::Open, 0.0);
-        }
+        open(system, state);
     }
 
     /// Leaves contacts that chatter from `state` on to a nonsmooth method. `mean` is the time between their events, 0 for contacts that [rub](super::rubbing) and are
@@ -181,6 +179,13 @@ impl Run {
         if let Some(balance) = &mut self.balance {
             balance.restart(system, state);
         }
+    }
+}
+
+/// Opens all contacts.
+pub(super) fn open(system: &dyn System, state: &mut State) {
+    for (i, _) in system.rows().iter().enumerate().filter(|(_, set)| **set != Set::Free) {
+        (state.mode[i], state.lambda[i]) = (Mode::Open, 0.0);
     }
 }
 

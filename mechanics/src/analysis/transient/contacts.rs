@@ -238,6 +238,8 @@ pub(super) struct Unseen {
     /// Rows of contacts with half-spaces, through which no way leads: what dips into one and leaves it again without force within rounding of
     /// the method, at the ends of steps, has not passed through.
     flat: Vec<bool>,
+    /// Gap that is rounding.
+    rounding: f64,
 }
 
 impl Unseen {
@@ -255,6 +257,7 @@ impl Unseen {
         planes.for_each(|row| flat[row] = true);
         Some(Unseen {
             flat,
+            rounding: TOUCHING * system.length(),
             values: [(); 2].map(|()| [zeros(), zeros()]),
             entered: vec![false; rows],
             accelerations: zeros(),
@@ -282,7 +285,8 @@ impl Unseen {
             let ([g0, v0], [g1, v1]) = (at(0, i), at(1, i));
             let contact = matches!(system.rows()[i], Set::Unilateral { .. });
             let entered = self.entered[i] && free(to);
-            self.entered[i] = contact && g1 < 0.0 && (entered || free(from) && free(to) && g0 > 0.0);
+            self.entered[i] =
+                contact && g1 < -self.rounding && (entered || free(from) && free(to) && g0 > 0.0);
             if entered && g1 > 0.0 && !self.flat[i] {
                 return Some(i);
             }
@@ -296,7 +300,7 @@ impl Unseen {
                 let parts = (2.0 * arc / ARC).ceil().min(MOST_PARTS);
                 let mut dips = |k: usize| {
                     within(system, from.t + h * k as f64 / parts, &mut self.accelerations);
-                    self.accelerations[i] < 0.0
+                    self.accelerations[i] < -self.rounding
                 };
                 if (1..parts as usize).any(&mut dips) {
                     return Some(i);
@@ -306,7 +310,7 @@ impl Unseen {
             let Some(lows) = lowest((0.0, [g0, v0]), (h, [g1, v1])) else { continue };
             let negative = |low: f64| {
                 within(system, from.t + low, &mut self.accelerations);
-                self.accelerations[i] < 0.0
+                self.accelerations[i] < -self.rounding
             };
             if lows.into_iter().any(negative) {
                 return Some(i);

@@ -1,6 +1,7 @@
 //! Checkpoints of a run, and whether a run goes on from one.
 
 use super::breaks::{is_fixed, jump_at, next_break};
+use super::burst::open as open_contacts;
 use super::chatter::Bursts;
 use super::contacts::Contacts;
 use super::segment::Segment;
@@ -76,6 +77,11 @@ impl Run {
             } else {
                 Segment::recall(segment, stop, asked)
             };
+            // Of a segment that began later, as behind a burst, what is left is divided anew.
+            let recalled = match recalled {
+                Err(_) if segment[0] > origin => Ok((Segment::new(state.t, stop, asked), state.t)),
+                recalled => recalled,
+            };
             let (segment, at) = recalled.map_err(|[before, now]| {
                 NotResumed::Failed(format!(
                     "the run was made with steps of {before} s, and until {} s steps would be {now} s: give the step \
@@ -93,7 +99,12 @@ impl Run {
             self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
         let step = self.segment.map(|segment| segment.step).or(plan.step).unwrap_or(plan.end - origin);
-        let started = integrator.start(system, &mut state.clone(), step);
+        let mut start = state.clone();
+        if open {
+            // Of more contacts than motions the method of the run knows no forces.
+            open_contacts(system, &mut start);
+        }
+        let started = integrator.start(system, &mut start, step);
         let mut integration = started.map_err(|error| NotResumed::Failed(error.to_string()))?;
         self.set_control(system, integrator.info(), state, plan);
         if let Some(control) = self.control.as_mut().filter(|_| !open) {

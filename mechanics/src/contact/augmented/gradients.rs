@@ -24,9 +24,8 @@ const STEPS: u32 = 10_000;
 /// Steps between two looks at the residual, and the residual at which they end.
 const LOOK: u32 = 25;
 const CLOSE: f64 = 1e-11;
-/// Steps in which the residual falls, or else it falls no further; those of a lenient problem.
+/// Steps in which the residual falls, or else it falls no further.
 const PATIENCE: u32 = 1500;
-const LENIENT: u32 = 250;
 /// Residual up to which the best multipliers of a lenient problem are taken, if no method does better.
 const TAKEN: f64 = 1e-3;
 /// Powers that λ takes, and a bound over what they give.
@@ -61,7 +60,7 @@ impl Augmented {
         let length = 1.0 / self.largest(factored, &mut next, y);
         self.onto_cones(&mut ahead);
         lambda.copy_from_slice(&ahead);
-        let (most, patience) = if self.lenient { (BESIDE, LENIENT) } else { (TOLERABLE, PATIENCE) };
+        let most = if self.lenient { BESIDE } else { TOLERABLE };
         self.move_by(factored, b, lambda, y);
         // Where more than one Λ is as good, that which is there stays.
         keep_best(&mut best, self.residual, lambda, FALLING);
@@ -96,7 +95,7 @@ impl Augmented {
                 if self.residual < FALLING * least {
                     (least, fell) = (self.residual, step);
                 }
-                let stands = best.0 <= most && step - fell >= patience;
+                let stands = best.0 <= most && step - fell >= PATIENCE;
                 if self.residual <= CLOSE || stands || !self.residual.is_finite() {
                     break;
                 }
