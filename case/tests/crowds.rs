@@ -253,6 +253,30 @@ fn a_heap_settles() {
     );
 }
 
+/// A box that falls on its corner with friction: the impulse that e = 0.9 asks for adds energy there (Kane's paradox), and without restitution it takes some.
+#[test]
+fn an_impact_that_adds_energy_says_so() {
+    let text = |restitution: f64| {
+        let mut text = "gravity = [0, 0, -9.81]\nrun = { duration = 0.13 }\noutput = { step = '1 ms' }\nintegrator = { kind = 'radau' }\n[[body]]\nname = 'box'\nmass = 1\n\
+            inertia = { kind = 'box', size = [0.1, 0.08, 0.06] }\nposition = [0, 0, 0.1]\nvelocity = [-0.466, -0.628, 0]\nspin = [1.77, -1.62, -0.36]\n"
+            .to_owned();
+        for (x, y, z) in [(0.05, 0.04, 0.07), (0.05, -0.04, 0.07), (-0.05, 0.04, 0.07), (-0.05, -0.04, 0.07)]
+        {
+            text.push_str(&format!(
+                "[[contact]]\non = 'box'\nat = [{x}, {y}, {z}]\nobstacle = {{ kind = 'plane', normal = [0, 0, 1] }}\nlaw = {{ kind = 'constraint', restitution = {restitution}, friction = 0.4 }}\n"
+            ));
+        }
+        text
+    };
+    for restitution in [0.9, 0.0] {
+        let run = integrate(&read(&text(restitution))).unwrap();
+        assert_eq!(run.failure, None);
+        let gained = *run.column("energy.contact_loss").last().unwrap() < -0.1;
+        let told = run.warnings.iter().any(|warning| warning.contains("adds"));
+        assert_eq!([gained, told], [restitution > 0.0; 2], "{restitution}: {:?}", run.warnings);
+    }
+}
+
 /// So many balls of 2 cm and 0.26 kg that fall into a tube of 12 × 12 cm, three of them in a row from wall to wall, and touch each other.
 fn heap(balls: usize, integrator: &str) -> String {
     let law = "law = { kind = 'constraint', restitution = 0.3, friction = 0.3 }\nradius = '2 cm'\n";
