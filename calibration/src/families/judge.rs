@@ -219,7 +219,8 @@ fn hold(held: &Held, ours: &Answered, outcome: &mut Outcome) {
     let nonsmooth = |text: &str| text.contains("nonsmooth-generalized-alpha") || text.contains("moreau-jean");
     let stepped = nonsmooth(ours.run.info.name) || ours.run.warnings.iter().any(|w| nonsmooth(w));
     // What is stated to be the error of the balance is not silent.
-    let [less, more] = ours.values("energy.balance").map_or([0.0; 2], |of| [of[0].1, of[1].1]);
+    let stated = ours.values("energy.balance").map_or([0.0; 2], |of| [of[0].1, of[1].1]);
+    let [less, more] = stated.map(|error| if error.is_nan() { 0.0 } else { error });
     broken("energy is made [J]", made, if stepped { LOST } else { MADE } * held.energy + more);
     broken("energy goes nowhere [J]", -lost, LOST * held.energy + less);
 }
