@@ -36,7 +36,7 @@
 //! r(tₙ₊₁, q̃ ⊞ ½h²α, ṽ + hα, q̈ + α, λ̃ + λ) = 0,     U = ½h²α, ν = ½h²λ   or   W = hα, P = hλ
 //! ```
 //!
-//! with the matrix M + hC + ½h²K, so that a node without mass is admitted. What the contacts change of the forces is not
+//! with the matrix M + hC + ½h²K, so that a node without mass is admitted; the impulses P act along the directions of qₙ₊₁, which they do not change. What the contacts change of the forces is not
 //! in the accelerations that the smooth motion remembers; acting as an impulse over one step it has its full effect.
 //!
 //! Sources: Brüls, Acary & Cardona (2014, doi 10.1016/j.cma.2014.07.025); Cosimo, Galvez, Cavalieri, Cardona & Brüls
@@ -280,12 +280,15 @@ impl Work {
     }
 
     /// What follows from an increment of this size, and the largest one of the correction; `new` contacts take part since it. Where the forces have not settled, increments are
-    /// no smaller than what is left of them lets them be.
+    /// no smaller than what is left of them lets them be; the part that is left of the largest is told with them.
     fn progress(&mut self, size: f64, largest: f64, new: bool) -> Progress {
         let unsettled = self.unsettled() > 0.0;
         match self.convergence.judge(size) {
             _ if new && size.is_finite() => Progress::Continue,
-            Progress::Diverged if unsettled && size <= LEFT * largest => Progress::Converged,
+            Progress::Diverged if unsettled && size <= LEFT * largest => {
+                self.residuals[0] = self.residuals[0].max(size / largest);
+                Progress::Converged
+            }
             progress => progress,
         }
     }
