@@ -1,4 +1,4 @@
-//! The layer table of `ARCHITECTURE.md` against the sources: who imports whom, names and sizes of files.
+//! The layer table of `ARCHITECTURE.md` against the sources: who imports whom, names and sizes of files, and that the files which the guides name are there.
 //!
 //! Test modules inside `src` are held to the same table. Paths in comments and in doc links are not
 //! imports and are not checked.
@@ -417,6 +417,25 @@ fn files_are_short_and_named_by_a_noun() {
             assert!(vague.is_none(), "{folder}/{}: `{vague:?}` names nothing", file.display());
         }
     }
+}
+
+/// Paths from the root in backquotes, but for patterns such as `verification/NAME/case.toml`.
+#[test]
+fn files_that_the_guides_name_are_there() {
+    let mut named = 0;
+    for guide in ["ARCHITECTURE.md", "CONTRIBUTING.md"] {
+        let text = std::fs::read_to_string(root().join(guide)).unwrap();
+        for path in text.split('`').skip(1).step_by(2) {
+            let is_path = path.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || "/._-".contains(c));
+            let folder = path.split_once('/').map(|(folder, _)| root().join(folder));
+            let is_file = Path::new(path).extension().is_some();
+            if is_path && is_file && folder.is_some_and(|folder| folder.is_dir()) {
+                assert!(root().join(path).exists(), "{guide} names `{path}`, which is not there");
+                named += 1;
+            }
+        }
+    }
+    assert!(named > 40, "{named} paths");
 }
 
 #[test]

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! a is the acceleration at another time than q̈, aₙ ≈ q̈(tₙ + Δh) with Δ = αm − αf: where the step changes from h₀ to h, aₙ is
-//! replaced by q̈ₙ + (aₙ − q̈ₙ) h/h₀. Dampers act in vₙ₊₁ − vₙ by the velocity (1 − γ) wₙ + γ wₙ₊₁, with w to v as a to q̈. With κ = (1 − αf)/(1 − αm) an increment Δq̈ₙ₊₁ moves v by hγκ Δq̈ and q by h²βκ Δq̈.
+//! replaced by q̈ₙ + (aₙ − q̈ₙ) h/h₀. Dampers act in vₙ₊₁ − vₙ by the velocity (1 − γ) wₙ + γ wₙ₊₁, with w to v as a to q̈: the balance of energy needs it, the step does not. With κ = (1 − αf)/(1 − αm) an increment Δq̈ₙ₊₁ moves v by hγκ Δq̈ and q by h²βκ Δq̈.
 
 use super::{Checkpoint, NotResumed};
 

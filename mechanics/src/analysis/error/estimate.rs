@@ -14,10 +14,10 @@
 //! Of the smallest, largest and last value, found at t*, the error is (`Pair::of_values`)
 //!
 //! ```text
-//! e = S max(|Δ value|, |Δy(t*)|, ¼ max_{t ≤ t*} |Δy(t)|, d min(1, d/(0.1 Y))),   Δy = y − y_f,   d = max_t |Δy|,   Y = max_t |y_f|
+//! e = S max(|Δ value|, |Δy(t*)|, ¼ max_{t ≤ t*} |Δy(t)|, d min(1, d/(0.1 Y))) + 10⁻¹² Y,   Δy = y − y_f,   d = max_t |Δy|,   Y = max_t |y_f|
 //! ```
 //!
-//! The third term is for a difference that passes through zero at t*, the last for vibrations that the mesh does not resolve, whose phases
+//! Δ value is the difference of the values of both runs, each at its own t*; it is left out where the companion ends earlier. Δy(t*) is that of the last record not after t*. The third term is for a difference that passes through zero at t*, the last for vibrations that the mesh does not resolve, whose phases
 //! differ.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `Radau`
@@ -63,6 +63,7 @@ const RESIDUALS: f64 = 4.0;
 const ALLOWANCE: (f64, f64) = (20.0, 2e6);
 /// Part of a value that rounding may have taken.
 pub const ROUNDING: f64 = 1e-12;
+
 /// How much an estimate of errors may cost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {

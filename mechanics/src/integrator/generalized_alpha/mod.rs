@@ -9,7 +9,7 @@
 //!
 //! q̈ is the acceleration of the equations of motion (`State::a`), a the auxiliary one (`Auxiliary::a`); with αm = αf = 0 they are the
 //! same. As in Arnold & Brüls, and other than in Chung & Hulbert, the equations hold at tₙ₊₁ and not between tₙ and tₙ₊₁; for a linear
-//! system both forms have the same amplification matrix. The unknowns of a step are q̈ₙ₊₁ and λₙ₊₁. With κ = (1 − αf)/(1 − αm) an increment Δq̈ moves v by hγκ Δq̈
+//! system both forms have the same amplification matrix. A run begins with a₀ = q̈₀. The unknowns of a step are q̈ₙ₊₁ and λₙ₊₁. With κ = (1 − αf)/(1 − αm) an increment Δq̈ moves v by hγκ Δq̈
 //! and q by h²βκ Δq̈, so that Newton's method solves
 //!
 //! ```text
@@ -35,10 +35,10 @@
 //!
 //! Newton's method is modified: tangent and factors are kept from step to step, and made anew as soon as a step takes more
 //! iterations than the mean step since the last renewal, the cost of the renewal included (`kept.rs`). An iteration ends when the
-//! increments are small (`newton.rs`); with constraints or rotations, when they are rounding errors. An affine system is solved exactly
+//! increments are small (`newton.rs`); with constraints or rotations, when they are rounding errors; and the forces of joints have settled (`joint_forces.rs`). An affine system is solved exactly
 //! by one iteration with the tangent of its step.
 //! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those of undamped frequencies far above
-//! 1/h, which change their sign at each step of a method without dissipation.
+//! 1/h, which change their sign at each step of a method without dissipation. Until three accelerations are known it is constant, then linear; λ is that of the last step.
 //!
 //! Behind a jump of a force on little mass h² q̈ₙ is no displacement of a step. Where in the first step behind a restart Newton's method
 //! fails, or ½h² (q̈ₙ₊₁ − q̈ₙ) is more than the scale of an unknown, three steps are those of the implicit Euler method,
@@ -139,8 +139,9 @@ pub(in crate::integrator) struct AlphaSteps {
     affine: bool,
     renewals: u32,
     constant: bool,
-    /// Whether no step has been taken since the restart, and steps of the implicit Euler method that are left, with that of the attempt.
+    /// Whether no step has been taken since the restart.
     begins: bool,
+    /// Steps of the implicit Euler method that are left, with that of the attempt: an attempt that chooses it does so for the shorter ones from the same state too.
     euler: u8,
     /// Whether the accepted step is one of them.
     line: bool,

@@ -58,8 +58,9 @@ impl Work {
         let (to_v, to_q) = (h, 0.5 * h * h);
         self.alpha.fill(0.0);
         self.trial.copy_from(&self.smooth);
-        if level == Level::Velocity {
-            self.forces.fill(0.0);
+        match level {
+            Level::Position => self.before.store_jacobian(system, &self.smooth),
+            Level::Velocity => self.forces.fill(0.0),
         }
         let (mut iterations, mut largest) = (0, 0.0_f64);
         self.convergence.begin(true);
@@ -86,9 +87,7 @@ impl Work {
                     (true, Level::Velocity) => self.rates[k] / to_v,
                 };
             }
-            if level == Level::Velocity {
-                self.push();
-            }
+            self.push(level);
             self.rhs.iter_mut().for_each(|r| *r = -*r);
             let weights = Weights { a: 1.0, v: to_v, q: to_q, increment: Some(&self.increment) };
             system.tangent(&self.trial, weights, &mut self.matrix);
@@ -107,8 +106,6 @@ impl Work {
             for k in 0..m {
                 if self.rows.sets()[k] == Set::Free {
                     self.trial.lambda[k] += self.rhs[n + k];
-                } else if level == Level::Position {
-                    self.trial.lambda[k] = self.forces[k];
                 }
             }
             counters.add_full_iteration(1 + self.impulses.len() as u64);
@@ -140,13 +137,19 @@ impl Work {
         Ok(iterations + self.convergence.iterations())
     }
 
-    /// Subtracts the forces of the contacts of a correction of velocities from the residual in `rhs`: along the directions of the end of the step, which it does not
-    /// change, and those that have turned into them. Along the ones of the trial state, forces that balance each other would not, and the iteration would not end.
-    fn push(&mut self) {
-        for &(row, j, x) in self.rows.stored() {
-            if self.rows.sets()[row] != Set::Free {
-                self.rhs[j] -= x * self.forces[row];
+    /// Subtracts the forces of the contacts of a correction from the residual in `rhs`, along directions that the correction does not change: at the level of positions
+    /// those of q̃, and of velocities those of the end of the step and those that have turned into them. Along the ones of the trial state, forces that balance each other
+    /// would not, and the iteration would not end; a heavy body that drives a light one around a corner makes the matrix indefinite there.
+    fn push(&mut self, level: Level) {
+        let Work { rows, before, rhs, forces, .. } = self;
+        let along = if level == Level::Position { before } else { rows };
+        for &(row, j, x) in along.stored() {
+            if along.sets()[row] != Set::Free {
+                rhs[j] -= x * forces[row];
             }
+        }
+        if level == Level::Position {
+            return;
         }
         let mut change = std::mem::take(&mut self.change);
         for (k, change) in change.iter_mut().enumerate() {

@@ -36,7 +36,7 @@
 //! r(tₙ₊₁, q̃ ⊞ ½h²α, ṽ + hα, q̈ + α, λ̃ + λ) = 0,     U = ½h²α, ν = ½h²λ   or   W = hα, P = hλ
 //! ```
 //!
-//! with the matrix M + hC + ½h²K, so that a node without mass is admitted; the impulses P act along the directions of qₙ₊₁, which they do not change. What the contacts change of the forces is not
+//! with the matrix M + hC + ½h²K, so that a node without mass is admitted; the contacts act along directions that a correction does not change, of q̃ and of qₙ₊₁. What the contacts change of the forces is not
 //! in the accelerations that the smooth motion remembers; acting as an impulse over one step it has its full effect.
 //!
 //! Sources: Brüls, Acary & Cardona (2014, doi 10.1016/j.cma.2014.07.025); Cosimo, Galvez, Cavalieri, Cardona & Brüls
