@@ -9,9 +9,11 @@ pub(super) fn of_run(warning: &Warning, fixed: bool) -> String {
     let advice = match warning {
         Warning::EnergyGained { .. } if fixed => "; use a smaller step or the adaptive method `radau`",
         Warning::EnergyGained { .. } => "; use a tighter tolerance",
-        Warning::EnergyImbalance { .. } => "; use smaller steps or a tighter tolerance",
-        Warning::EnergyLost { .. } => "; use smaller steps or a tighter tolerance",
-        Warning::SteppedOver { .. } => "; use smaller steps, or `radau`",
+        Warning::EnergyImbalance { .. } | Warning::EnergyLost { .. } | Warning::EnergyAdded { .. } => {
+            "; use smaller steps or a tighter tolerance"
+        }
+        Warning::SteppedOver { .. } if fixed => "; use smaller steps, or `radau`",
+        Warning::SteppedOver { .. } => "; use a smaller `contact-step`",
         Warning::Grinds { .. } => {
             "; take fewer points, a softer force, or a `constraint` with `nonsmooth-generalized-alpha`"
         }

@@ -176,9 +176,10 @@ pub(super) fn first_stable(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Option<State> {
     let mut found = None;
+    let mut known = None;
     let definiteness = |equations: &mut Equations<'_>, place: &Place| {
         apply(equations.system, place.factor);
-        Definiteness(negative_parts(equations.system, &place.state))
+        Definiteness(negative_parts(equations.system, &place.state, &mut known))
     };
     // A path that ends has shown what lies before.
     let _ = walk(system, start, plan, definiteness, |equations, (from, (there, _))| {
@@ -215,7 +216,7 @@ fn walk<J: Judgement>(
     system: &mut dyn System,
     start: &State,
     plan: &Plan,
-    judge: impl Fn(&mut Equations<'_>, &Place) -> J,
+    mut judge: impl FnMut(&mut Equations<'_>, &Place) -> J,
     mut visit: impl FnMut(&mut Equations<'_>, (Option<(&Place, &J)>, (&Place, &J))) -> bool,
 ) -> Result<(), PathEnd> {
     let mut state = start.clone();

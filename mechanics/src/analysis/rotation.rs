@@ -138,7 +138,7 @@ impl Point {
     fn certain(&mut self, system: &mut dyn System) -> usize {
         let count = self.certain.unwrap_or_else(|| {
             let _ = set(system, self.speed);
-            negative_parts(system, &self.state)
+            negative_parts(system, &self.state, &mut None)
         });
         let _ = set(system, self.speed);
         *self.certain.insert(count)

@@ -67,16 +67,17 @@ fn rounds(all: [Matrix; 3], multipliers: usize) -> bool {
 }
 
 /// Number of directions, allowed by the rows, in which xᵀKx is negative by more than rounding: a tangent with none is not singular,
-/// symmetric or not.
-pub(super) fn negative_parts(system: &mut dyn System, state: &State) -> usize {
+/// symmetric or not. Behind a state of `known` directions about none of which rounding decided, it is taken to decide about none of as many.
+pub(super) fn negative_parts(system: &mut dyn System, state: &State, known: &mut Option<usize>) -> usize {
     let (stiffness, multipliers) = constrained(system, state);
-    match negative_directions(&stiffness.symmetrized(), multipliers) {
-        0 => 0,
-        negative => {
-            let (all, multipliers) = matrices(system, state);
-            saddle(&symmetrized(&all), multipliers).unwrap_or(negative)
-        }
+    let negative = negative_directions(&stiffness.symmetrized(), multipliers);
+    if negative == 0 || *known == Some(negative) {
+        return negative;
     }
+    let (all, multipliers) = matrices(system, state);
+    let certain = saddle(&symmetrized(&all), multipliers).unwrap_or(negative);
+    *known = (certain == negative).then_some(negative);
+    certain
 }
 
 /// The stability of `state`, which is taken for an equilibrium as it stands.

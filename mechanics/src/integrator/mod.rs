@@ -202,7 +202,7 @@ pub enum StepError {
         worst: String,
     },
     /// The impulses of contacts in a step were not found.
-    #[error("at t = {time:.6} s with a step of {step:.3e} s {cause}")]
+    #[error("at t = {time:.6} s with a step of {step:.3e} s {cause}; try a smaller step, or a continuous contact force")]
     Contacts {
         /// Time at the start of the step \[s\].
         time: f64,

@@ -168,6 +168,12 @@ impl Events {
         found.map_or("", |contact| contact.name.as_str())
     }
 
+    /// Energy \[J\] that an impact is said to add where contacts part at the start of its step and strike at its end: an error of a step that locates no impact.
+    pub(super) fn parted(&self, impulses: &[f64], rates: &[f64]) -> f64 {
+        let rows = self.contacts.iter().filter_map(|contact| contact.row);
+        rows.map(|row| impulses[row] * rates[row].max(0.0)).sum()
+    }
+
     /// The impacts, and the beginnings of continuous forces.
     pub fn impacts(&self) -> impl Iterator<Item = &Entry> {
         self.list.iter().filter(|entry| matches!(entry.what, "impact" | "touched"))

@@ -14,12 +14,14 @@ use std::ops::ControlFlow;
 
 /// Relative imbalance of the energy that a run may show without a warning.
 const IMBALANCE: f64 = 0.2;
-/// The same of energy lost in a run with impacts.
-const LOST: f64 = 0.01;
+/// The same of a run with impacts, behind the first.
+const UNEXPLAINED: f64 = 0.01;
 /// Fewest steps a period of a vibration whose amplitude and phase are followed.
 const STEPS_A_PERIOD: f64 = 10.0;
 /// What an impact adds of energy, over half of what its impulses do with the closing speeds, from which on it is told.
 const GAINED: f64 = 1e-2;
+/// and over the largest energy of the run, below which nobody asks for it.
+const SMALL: f64 = 1e-6;
 
 /// Called after every accepted step; `Break` stops the run.
 pub type Watch<'a> = dyn FnMut(&State) -> ControlFlow<()> + 'a;
@@ -197,7 +199,7 @@ impl<'a> Recorder<'a> {
     /// a point may have stepped over an obstacle, or fixed steps do not resolve a vibration.
     fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
         let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
-        let doubtful = self.imbalance().or_else(|| self.lost());
+        let doubtful = self.imbalance().or_else(|| self.unexplained());
         let known = rounding_energy(system, state);
         let doubtful = doubtful.filter(|(size, _)| *size > known).map(|(_, warning)| warning);
         let stepped_over = self.stepped_over.clone();
@@ -219,7 +221,9 @@ impl<'a> Recorder<'a> {
         let grinds = self.grinds.map(|(time, mean)| Warning::Grinds { time, mean });
         let unsettled =
             self.unsettled.map(|(steps, largest, time)| Warning::Unsettled { steps, largest, time });
-        let gained = self.impact_gain.map(|(time, energy)| Warning::ImpactGained { time, energy });
+        let told = |gain: &(f64, f64)| gain.1 > SMALL * self.trajectory.largest_energy();
+        let gained =
+            self.impact_gain.filter(told).map(|(time, energy)| Warning::ImpactGained { time, energy });
         let of_contacts = gained
             .into_iter()
             .chain(stepped_over)
@@ -238,15 +242,21 @@ impl<'a> Recorder<'a> {
         Some((largest, Warning::EnergyImbalance { relative }))
     }
 
-    /// Energy \[J\] that is lost behind the first impact and that nothing explains: what is lost before it is the damping of the method.
-    fn lost(&self) -> Option<(f64, Warning)> {
+    /// Energy \[J\] that is lost or comes behind the first impact and that nothing explains: what is lost before it is the damping of the method.
+    fn unexplained(&self) -> Option<(f64, Warning)> {
         let first = self.events.impacts().next()?.time;
         let balance = self.trajectory.with_role(Role::Imbalance).next()?;
         let rows = || self.trajectory.times().iter().zip(self.trajectory.values(balance));
         let before = rows().take_while(|(t, _)| **t <= first).last().map_or(0.0, |(_, y)| y);
-        let lost = rows().filter(|(t, _)| **t > first).map(|(_, y)| before - y).fold(0.0, f64::max);
-        let relative = lost / self.trajectory.largest_energy();
-        (relative > LOST).then_some((lost, Warning::EnergyLost { lost, relative }))
+        let behind = || rows().filter(|(t, _)| **t > first).map(|(_, y)| y - before);
+        let (lost, added) = (behind().map(|y| -y).fold(0.0, f64::max), behind().fold(0.0, f64::max));
+        let energy = lost.max(added);
+        let relative = energy / self.trajectory.largest_energy();
+        let warning = match lost >= added {
+            true => Warning::EnergyLost { lost, relative },
+            false => Warning::EnergyAdded { added, relative },
+        };
+        (relative > UNEXPLAINED).then_some((energy, warning))
     }
 
     /// The record of a run that has ended at `state`.
@@ -310,8 +320,9 @@ impl Observer for Recorder<'_> {
         self.passing.cut();
         if let EventKind::Impact { lost, impulses, rates, .. } = &event.kind {
             let exchanged: f64 = impulses.iter().zip(rates).map(|(p, rate)| 0.5 * (p * rate).abs()).sum();
-            if -lost > GAINED * exchanged && -lost > self.impact_gain.map_or(0.0, |(_, gain)| gain) {
-                self.impact_gain = Some((event.time, -lost));
+            let gain = -lost - self.events.parted(impulses, rates);
+            if gain > GAINED * exchanged && gain > self.impact_gain.map_or(0.0, |(_, gain)| gain) {
+                self.impact_gain = Some((event.time, gain));
             }
         }
         if !self.events.is_empty() {

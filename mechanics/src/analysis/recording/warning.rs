@@ -35,10 +35,22 @@ pub enum Warning {
         /// The same over the largest energy or work of the run.
         relative: f64,
     },
+    /// Energy comes behind impacts that nothing has put in.
+    #[error(
+        "{added:.3e} J of energy have come since the first impact that loads and motions do not explain, {:.1} % of the largest \
+         energy or work of the run: the steps do not resolve what happens in their impacts",
+        100.0 * relative
+    )]
+    EnergyAdded {
+        /// Energy added \[J\].
+        added: f64,
+        /// The same over the largest energy or work of the run.
+        relative: f64,
+    },
     /// A point may have passed through an obstacle within a step of a method that locates no events.
     #[error(
-        "the contact `{contact}` may have passed through its obstacle in the step that ends at t = {time:.6} s: this method \
-         locates no events, and its steps are too large for an obstacle of this size"
+        "the contact `{contact}` may have passed through its obstacle in the step that ends at t = {time:.6} s: no events \
+         are located in it, and it is too long for an obstacle of this size"
     )]
     SteppedOver {
         /// End of the first such step \[s\].

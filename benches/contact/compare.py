@@ -1,4 +1,4 @@
-"""Flexion beside MuJoCo where rods and beams lie down on a floor: processor time at equal error.
+"""Flexion beside MuJoCo and Exudyn where rods and beams lie down on a floor: processor time at equal error.
 
     python compare.py --flexion BINARY [chain] [beam] [options]      (--help lists them)
 
@@ -196,6 +196,52 @@ def mujoco_beam(_):
     return [("MuJoCo", f"{n} rods, {described(s)}", lambda s=s, n=n: run(s, n)) for s, n in runs]
 
 
+# --- Exudyn ----------------------------------------------------------------------------------------------------------
+
+
+def exudyn_runs(compute, cases, rows, limit):
+    """Runs of a function of exudyn_models.py; one that takes steps of other sizes has other times of its rows."""
+
+    def run(arguments):
+        from exudyn_models import Stopped
+
+        try:
+            cpu, *found = compute(*arguments)
+        except Stopped as stopped:
+            raise Failed(str(stopped)) from stopped
+        if len(found[0]) != rows:
+            raise Failed("the solver's own shorter steps miss times of the rows")
+        return cpu, *found
+
+    def settings(steps, stiffness, damping, radius):
+        return f"{limit / steps * 1e3:.3g} ms, stiffness {stiffness:g}, damping {damping:g}, ρ∞ {radius}"
+
+    return [
+        ("Exudyn", "".join(f"{n} elements, " for n in first) + settings(*rest), lambda a=(*first, *rest): run(a))
+        for first, rest in cases
+    ]
+
+
+def exudyn_chain(_):
+    from exudyn_models import chain
+    from models import Chain
+
+    laws = [(k, d) for k in (1e4, 1e5, 1e6) for d in (3e-3 * k**0.5, 3e-2 * k**0.5, 0.1 * k**0.5)]
+    cases = [((), (steps, *law, r)) for steps in (200, 1000, 4000, 10000) for law in laws for r in (0.5, 0.9)]
+    return exudyn_runs(chain, cases, round(Chain.END / Chain.EVERY) + 1, Chain.END)
+
+
+def exudyn_beam(_):
+    from exudyn_models import beam
+    from models import Beam
+
+    laws = [(k, d) for k in (1e4, 1e5, 1e6, 1e7) for d in (0.1 * k**0.5, 0.3 * k**0.5)]
+    cases = [
+        ((n,), (steps, *law, r)) for n in (10, 20, 40, 80) for steps in (90, 150, 300, 600) for law in laws for r in (0.5, 0.9)
+    ]
+    return exudyn_runs(beam, cases, round(Beam.END / Beam.EVERY) + 1, Beam.END)
+
+
 # --- errors ----------------------------------------------------------------------------------------------------------
 
 
@@ -282,6 +328,8 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="*", default=["chain", "beam"], help="chain, beam, or both")
     parser.add_argument("--flexion", required=True, help="path of the flexion binary")
+    programs = ("mujoco", "exudyn", "flexion")
+    parser.add_argument("--programs", nargs="+", choices=programs, default=programs, help="which are run")
     parser.add_argument("-n", "--repetitions", type=int, default=3)
     parser.add_argument("--reference", action="store_true", help="make reference.csv anew, and end")
     parser.add_argument("--coarse", nargs="+", type=float, default=COARSE, help="Flexion's steps [s] of the chain")
@@ -293,18 +341,20 @@ def arguments():
 def main():
     options = arguments()
     enter_environment()
+    import exudyn
     import mujoco
 
     if options.reference:
         return write_reference(options)
     cases = {
-        "chain": (mujoco_chain, flexion_chain, chain_error, "error of the height [m]"),
-        "beam": (mujoco_beam, flexion_beam, beam_error, "error of the moment at the clamp"),
+        "chain": ((mujoco_chain, exudyn_chain), flexion_chain, chain_error, "error of the height [m]"),
+        "beam": ((mujoco_beam, exudyn_beam), flexion_beam, beam_error, "error of the moment at the clamp"),
     }
-    record = {"mujoco": mujoco.__version__, "repetitions": options.repetitions}
+    record = {"mujoco": mujoco.__version__, "exudyn": exudyn.__version__, "repetitions": options.repetitions}
     for name in options.cases:
         theirs, own, error, what = cases[name]
-        rows, kept, failed = measure(theirs(options) + own(options), error(options), options.repetitions)
+        runs = [run for program in (*theirs, own) if program.__name__.split("_")[0] in options.programs for run in program(options)]
+        rows, kept, failed = measure(runs, error(options), options.repetitions)
         print(f"\n{name}: {len(rows)} runs, {len(failed)} failed; those that no other of the same program beats in both")
         show(kept, failed, what)
         record[name] = {"runs": rows, "front": kept, "failed": failed}
