@@ -426,7 +426,8 @@ fn files_that_the_guides_name_are_there() {
     for guide in ["ARCHITECTURE.md", "CONTRIBUTING.md"] {
         let text = std::fs::read_to_string(root().join(guide)).unwrap();
         for path in text.split('`').skip(1).step_by(2) {
-            let is_path = path.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || "/._-".contains(c));
+            let is_path =
+                path.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || "/._-".contains(c));
             let folder = path.split_once('/').map(|(folder, _)| root().join(folder));
             let is_file = Path::new(path).extension().is_some();
             if is_path && is_file && folder.is_some_and(|folder| folder.is_dir()) {

@@ -111,12 +111,23 @@ const ROUNDING: f64 = 1e-12;
 /// The same for steps that place what stands again and again.
 const STANDING: f64 = 1e-10;
 
-/// Energy that rounding makes of a system at rest \[J\]: ½ Σ Kᵢᵢ (10⁻¹² wᵢ)², with the stiffness K at `state` and the scales w of the
+/// Work of the loads along the scales of the unknowns, over what of it is rounding.
+const WORK: f64 = 1e-13;
+
+/// Energy that rounding makes of a system at rest \[J\]: Σ ½ Kᵢᵢ (10⁻¹² wᵢ)² + 10⁻¹³ |fᵢ| wᵢ, with the stiffness K and the loads f at `state`, and the scales w of the
 /// unknowns.
 pub fn rounding_energy(system: &mut dyn System, state: &State) -> f64 {
     let stiffness = stiffness::stiffness(system, state);
-    let scales = system.scales().iter().enumerate();
-    scales.map(|(i, scale)| 0.5 * stiffness.get(i, i).abs() * (ROUNDING * scale) * (ROUNDING * scale)).sum()
+    let mut free = state.clone();
+    free.lambda.fill(0.0);
+    free.a.fill(0.0);
+    let mut forces = vec![0.0; state.v.len()];
+    system.residual(&free, &mut forces);
+    let scales = system.scales().iter().zip(&forces).enumerate();
+    let of_unknown = |(i, (scale, force)): (usize, (&f64, &f64))| {
+        0.5 * stiffness.get(i, i).abs() * (ROUNDING * scale) * (ROUNDING * scale) + WORK * force.abs() * scale
+    };
+    scales.map(of_unknown).sum()
 }
 
 /// Steps from one in which the energy is weighed to the next, at most: a gain stays.

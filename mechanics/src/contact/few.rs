@@ -23,6 +23,9 @@ const CLOSE: f64 = 1e-7;
 /// Pivot of W, over its largest entry and m ε, below which it is rounding.
 const ROUNDING: f64 = 8.0;
 
+/// W of a row of friction over the largest of normal ones, up to which it moves nothing.
+const STILL: f64 = 1e-9;
+
 /// The problem, with its memory.
 #[derive(Debug)]
 pub struct Few {
@@ -34,6 +37,8 @@ pub struct Few {
     solution: Vec<f64>,
     /// Multipliers of an earlier sweep.
     earlier: Vec<f64>,
+    /// W and b without rows of friction that move nothing.
+    moving: [Vec<f64>; 2],
 }
 
 impl Few {
@@ -51,6 +56,7 @@ impl Few {
             y: Vec::with_capacity(rows),
             solution: Vec::with_capacity(rows),
             earlier: Vec::with_capacity(rows),
+            moving: [Vec::with_capacity(rows * rows), Vec::with_capacity(rows)],
         };
         few.identity(order);
         few
@@ -84,11 +90,38 @@ impl Few {
         if !b.iter().chain(w).all(|x| x.is_finite()) {
             return Err(Unresolved { rows: m, sweeps: 0, change: f64::NAN });
         }
-        // The rows of one contact do not follow from each other.
-        let contacts = laws.iter().filter(|law| matches!(law, RowLaw::Free | RowLaw::Unilateral)).count();
-        if contacts < 2 {
+        if m == 1 {
             return cone::relax(laws, (w, b), lambda, cone::SWEEPS, &mut self.earlier);
         }
+        let is_normal = |i: usize| matches!(laws[i], RowLaw::Free | RowLaw::Unilateral);
+        let least = STILL * (0..m).filter(|i| is_normal(*i)).fold(0.0, |most: f64, i| most.max(w[i * m + i]));
+        let is_still = |i: usize| matches!(laws[i], RowLaw::Friction { .. }) && w[i * m + i] <= least;
+        if !(0..m).any(is_still) {
+            return self.solve_moving(laws, (w, b), lambda);
+        }
+        // Friction across what a joint holds is not known, and rounding would make it the largest: it is none.
+        let mut moving = std::mem::take(&mut self.moving);
+        for (to, from) in moving.iter_mut().zip([w, b]) {
+            to.clear();
+            to.extend_from_slice(from);
+        }
+        for i in (0..m).filter(|i| is_still(*i)) {
+            (0..m).for_each(|j| (moving[0][i * m + j], moving[0][j * m + i]) = (0.0, 0.0));
+            (moving[1][i], lambda[i]) = (0.0, 0.0);
+        }
+        let solved = self.solve_moving(laws, (&moving[0], &moving[1]), lambda);
+        self.moving = moving;
+        solved
+    }
+
+    /// The same of rows that all move something, or nothing at all.
+    fn solve_moving(
+        &mut self,
+        laws: &[RowLaw],
+        (w, b): (&[f64], &[f64]),
+        lambda: &mut [f64],
+    ) -> Result<usize, Unresolved> {
+        let m = laws.len();
         self.factor.set(w, m, ROUNDING * m as f64 * f64::EPSILON);
         if self.factor.rank == m
             && let Ok(sweeps) = cone::relax(laws, (w, b), lambda, SOON, &mut self.earlier)
@@ -120,12 +153,15 @@ impl Few {
             self.identity(self.factor.rank);
         }
         // Norms are measured by the mean of W of all normal rows, and of all rows of friction.
-        let stiffness = [true, false].map(|normal| {
+        let mean = |normal: bool| {
             let of = |i: &usize| matches!(laws[*i], RowLaw::Free | RowLaw::Unilateral) == normal;
             let (sum, count) =
                 (0..m).filter(of).fold((0.0, 0.0), |(sum, count), i| (sum + w[i * m + i], count + 1.0));
-            if sum > 0.0 { count / sum } else { 1.0 }
-        });
+            if count > 0.0 { sum / count } else { 0.0 }
+        };
+        let (normal, friction) = (mean(true), mean(false));
+        let inverse = |w: f64| if w > 0.0 { 1.0 / w } else { 1.0 };
+        let stiffness = [inverse(normal), inverse(if friction > 0.0 { friction } else { normal })];
         let Few { factor, problem, unit, y, solution, .. } = self;
         problem.begin(laws);
         problem.measure_by(stiffness);
@@ -187,6 +223,22 @@ impl Factor {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The end of a hinged rod that moves along the normal alone: friction moves nothing, and is none.
+    #[test]
+    fn friction_that_moves_nothing_is_none() {
+        let friction = RowLaw::Friction { coefficient: 0.3, normal: 0 };
+        let laws = [RowLaw::Unilateral, friction, friction];
+        for small in [0.0, 1e-33, 1e-17] {
+            let w = [3.0, 0.0, 0.0, 0.0, small, 0.0, 0.0, 0.0, small];
+            let mut x = [0.0; 3];
+            let solved = Few::new(3).solve(&laws, &w, &[-6.0, 1e-18, 0.0], &mut x);
+            assert!(
+                solved.is_ok() && (x[0] - 2.0).abs() < 1e-9 && x[1].hypot(x[2]) < 1e-6,
+                "{small}: {solved:?} {x:?}"
+            );
+        }
+    }
 
     /// W and b of a box of 2 × 1 × 0.2 (mass 2) that is pressed on so many points of its face, with a push along y.
     fn on_its_face(places: &[[f64; 2]], push: f64) -> (Vec<f64>, Vec<f64>) {

@@ -22,6 +22,8 @@ use super::few::Few;
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 
+/// Part of a closing speed that no impulse takes, from which on what closes is driven.
+const DRIVEN: f64 = 0.1;
 /// Velocity after an impact, over the largest before it, below which a contact counts as closed.
 const RESTING: f64 = 1e-12;
 /// Part of the limit of friction by which a contact that sticks must stay below it.
@@ -116,6 +118,15 @@ pub enum ImpactError {
         /// Where elimination broke down.
         cause: Singular,
     },
+    /// Parts are pressed into each other that cannot give way.
+    #[error(
+        "no finite {contact} stops what closes it: prescribed motions, or contacts on both sides, press into each other what cannot give way; \
+         drive it by a force, a torque or a spring, or end the motion before"
+    )]
+    Driven {
+        /// Its unknown.
+        contact: String,
+    },
     /// The contacts were not resolved.
     #[error(transparent)]
     Unresolved(#[from] Unresolved),
@@ -135,6 +146,10 @@ pub struct ImpactMap {
     rates: Vec<f64>,
     /// −g̈ without contact forces, as [`ImpactMap::settle`] found it.
     pressing: Vec<f64>,
+    /// Multipliers of the contacts that [`ImpactMap::settle`] left closed, of all rows; the other forces, and g̈ at rest.
+    forces: Vec<f64>,
+    loads: Vec<f64>,
+    turning: Vec<f64>,
     velocities: usize,
     /// ε, where M is singular, and the largest entry of M then.
     weight: f64,
@@ -166,6 +181,9 @@ impl ImpactMap {
             rhs: vec![0.0; n + m],
             rates: vec![0.0; m],
             pressing: vec![0.0; m],
+            forces: vec![0.0; m],
+            loads: vec![0.0; n],
+            turning: vec![0.0; m],
             velocities: n,
             weight: 0.0,
             inertia: 0.0,
@@ -228,6 +246,10 @@ impl ImpactMap {
             let after = before[i] + self.along(i, &change);
             let moving = before[i] - self.along(i, &state.v);
             impact.lost -= 0.5 * x * (after + before[i]);
+            let closes = matches!(self.sets[i], Set::Unilateral { .. }) && before[i] < -resting;
+            if closes && after < DRIVEN * before[i] {
+                return Err(ImpactError::Driven { contact: system.unknown(n + i) });
+            }
             impact.work -= x * moving;
         }
         impact.work += self.work_of_joints(p, jumps, (&part, &impulses), &state.v, RESTING * largest);
@@ -411,6 +433,10 @@ impl ImpactMap {
                 state.mode[i] = Mode::Open;
             }
         }
+        self.forces.fill(0.0);
+        let closed = part.rows.iter().zip(&forces).filter(|(i, _)| state.mode[**i] != Mode::Open);
+        closed.for_each(|(i, force)| self.forces[*i] = *force);
+        (self.loads, self.turning) = (force, free);
         let held: Vec<usize> =
             (0..part.rows.len()).filter(|k| state.mode[part.rows[*k]] == Mode::Closed).collect();
         let m = part.rows.len();
@@ -418,6 +444,20 @@ impl ImpactMap {
             held.iter().flat_map(|k| held.iter().map(move |l| k * m + l)).map(|at| w[at]).collect();
         self.dependent = held.len() > n || self.few.are_dependent(&entries, held.len(), DEPENDENT);
         Ok(())
+    }
+
+    /// Gives `state`, which was [settled](ImpactMap::settle) last, the multipliers and accelerations that belong to its closed contacts: of least norm where rows follow from others.
+    pub(crate) fn press(&mut self, state: &mut State) {
+        let n = self.velocities;
+        let mut f = std::mem::take(&mut self.loads);
+        for (i, force) in self.forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            f.iter_mut().zip(&self.jacobian[i * n..(i + 1) * n]).for_each(|(f, g)| *f += force * g);
+        }
+        let turning = std::mem::take(&mut self.turning);
+        self.respond(&f, |i| turning[i], &mut state.a);
+        for (i, lambda) in state.lambda.iter_mut().enumerate() {
+            *lambda = if self.sets[i] == Set::Free { *lambda + self.rhs[n + i] } else { self.forces[i] };
+        }
     }
 
     /// Whether rows that were left closed follow from others: they have no forces of their own.

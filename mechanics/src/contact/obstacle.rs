@@ -36,6 +36,13 @@ pub struct Surface {
     pub acceleration: Vec3,
 }
 
+impl Surface {
+    /// The same with the tangents of a planar system, in whose plane t₁ is.
+    pub(super) fn in_plane(self) -> Surface {
+        Surface { tangents: tangents(self.normal), ..self }
+    }
+}
+
 /// A rigid obstacle.
 pub trait Obstacle: std::fmt::Debug + Send + Sync {
     /// The surface as seen from the point `p` \[m\] at time `t` \[s\].
@@ -86,6 +93,17 @@ impl Translation {
         let smooth = x.resolution().iter().map(|&time| Break { time, jump: Jump::Nothing });
         x.breaks().iter().map(|&time| Break { time, jump: jump(time) }).chain(smooth).collect()
     }
+}
+
+/// Axis of the circles along which t₁ of a sphere is: at its ends the tangents turn, and nothing rests there as it does at the top of a ball and the bottom of a bowl.
+const POLES: Vec3 = Vec3([0.48, 0.6, 0.64]);
+
+/// Tangents e × n and n × (e × n) of a normal n that is not along e, and |e × n|.
+fn around(e: Vec3, n: Vec3) -> ([Vec3; 2], f64) {
+    let t = e.cross(n);
+    let across = t.norm();
+    let t = t / across;
+    ([t, n.cross(t)], across)
 }
 
 /// Tangents of a normal: e_z × n and n × (e_z × n), or e_x and e_y where n is along z.
@@ -233,11 +251,12 @@ impl Obstacle for Sphere {
             0.0 => [0.0, 0.0, side],
             _ => (side * from / distance).0,
         };
-        let tangents = tangents(Vec3(normal));
         let curvature = side / distance.max(1e-3 * self.radius);
         // t₁ is along the circles of latitude, which turn at the poles.
-        let across = libm::hypot(normal[0], normal[1]);
-        let turn = if across > 0.0 { curvature * normal[2] / across } else { 0.0 };
+        let (tangents, turn) = match around(POLES, Vec3(normal)) {
+            (tangents, across) if across > 0.0 => (tangents, curvature * POLES.dot(Vec3(normal)) / across),
+            _ => (tangents(Vec3(normal)), 0.0),
+        };
         Surface {
             gap: side * (distance - self.radius),
             normal: Vec3(normal),

@@ -43,6 +43,11 @@ pub(super) fn contacts(
     StepError::Contacts { time, step, cause }
 }
 
+/// The error of a contact, of this row, that no finite force stops.
+pub(super) fn driven(system: &dyn Dynamics, (time, step): (f64, f64), row: usize) -> StepError {
+    StepError::Driven { time, step, contact: system.unknown(system.size().v + row) }
+}
+
 /// The error of a Newton iteration that does not converge, whose last increment `x` is `size` times its tolerance.
 pub(super) fn not_converged(
     system: &dyn Dynamics,

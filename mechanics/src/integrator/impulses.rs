@@ -15,6 +15,31 @@ use crate::contact::{Augmented, FEW, Few, RowLaw, Unresolved};
 use crate::linalg::Matrix;
 use crate::system::{Dynamics, Set};
 
+/// Part of the largest closing speed that contacts may leave at the end of an iteration, and that times the step over the largest scale of an unknown.
+const LEFT: [f64; 2] = [0.1, 1e-9];
+
+/// How fast contacts close before each problem of an iteration.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Closing {
+    largest: f64,
+    last: (usize, f64),
+}
+
+impl Closing {
+    /// Takes what the problem solved last began with.
+    pub(super) fn enter(&mut self, impulses: &Impulses) {
+        self.last = impulses.worst;
+        self.largest = self.largest.max(impulses.worst.1);
+    }
+
+    /// The row of a contact that no finite force stops, with values that are displacements of a step over `unit`: prescribed motions, or contacts on both sides, drive it.
+    pub(super) fn driven(&self, unit: f64, scales: &[f64]) -> Option<usize> {
+        let (row, left) = self.last;
+        let scale = scales.iter().fold(0.0_f64, |most, scale| most.max(*scale));
+        (left > LEFT[0] * self.largest && unit * left > LEFT[1] * scale).then_some(row)
+    }
+}
+
 /// The rows that take part in a step, and memory for their problem.
 #[derive(Debug)]
 pub(super) struct Impulses {
@@ -33,6 +58,8 @@ pub(super) struct Impulses {
     /// Unknowns up to the multiplier of the last joint: those of contacts behind it couple to nothing in A.
     leading: usize,
     few: Few,
+    /// The row of a contact that closes fastest before the problem solved last, and how fast: what problems that went before have not stopped.
+    worst: (usize, f64),
     /// What is left of the problem solved last where it has [not settled](Augmented::unsettled), over its largest multiplier; else 0.
     pub(super) residual: f64,
 }
@@ -50,6 +77,7 @@ impl Impulses {
             many: many.then(|| Augmented::default().lenient()),
             leading: order.min(system.size().v + joints),
             few: Few::new(rows),
+            worst: (0, 0.0),
             residual: 0.0,
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
@@ -115,9 +143,15 @@ impl Impulses {
         x: &mut [f64],
     ) -> Result<(), Unresolved> {
         let (n, m) = (x.len(), self.rows.len());
-        self.residual = 0.0;
+        (self.residual, self.worst) = (0.0, (0, 0.0));
         if m == 0 {
             return Ok(());
+        }
+        for (&row, _) in self.rows.iter().zip(&self.laws).filter(|(_, law)| **law == RowLaw::Unilateral) {
+            let closing = -value(row);
+            if closing > self.worst.1 {
+                self.worst = (row, closing);
+            }
         }
         let along = |row: usize, x: &[f64]| -> f64 {
             jacobian.of_row(row).iter().map(|&(_, j, entry)| entry * x[j]).sum()

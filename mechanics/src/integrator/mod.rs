@@ -202,7 +202,9 @@ pub enum StepError {
         worst: String,
     },
     /// The impulses of contacts in a step were not found.
-    #[error("at t = {time:.6} s with a step of {step:.3e} s {cause}; try a smaller step, or a continuous contact force")]
+    #[error(
+        "at t = {time:.6} s with a step of {step:.3e} s {cause}; try a smaller step, or a continuous contact force"
+    )]
     Contacts {
         /// Time at the start of the step \[s\].
         time: f64,
@@ -210,6 +212,19 @@ pub enum StepError {
         step: f64,
         /// Why.
         cause: crate::contact::Unresolved,
+    },
+    /// Parts are pressed into each other that cannot give way.
+    #[error(
+        "at t = {time:.6} s with a step of {step:.3e} s no finite {contact} stops what closes it: prescribed motions, or contacts on both sides, press \
+         into each other what cannot give way; drive it by a force, a torque or a spring, or end the motion before"
+    )]
+    Driven {
+        /// Time at the start of the step \[s\].
+        time: f64,
+        /// Step \[s\].
+        step: f64,
+        /// Its unknown.
+        contact: String,
     },
     /// The method cannot integrate this kind of system.
     #[error("{method} cannot integrate a system with {feature}; use {instead}")]

@@ -17,7 +17,7 @@
 //!
 //! Sources: Moreau (1988, doi 10.1007/978-3-7091-2624-0_1); Jean (1999, doi 10.1016/S0045-7825(98)00383-1).
 
-use super::impulses::Impulses;
+use super::impulses::{Closing, Impulses};
 use super::rows::Rows;
 use super::{
     Attempt, Checkpoint, Convergence, Counters, Info, Integrator, InvalidParameter, NotResumed, Progress,
@@ -115,6 +115,7 @@ impl MoreauSteps {
         self.impulses.iter_mut().zip(&from.lambda).for_each(|(p, lambda)| *p = h * lambda);
         self.part.guess(&self.impulses);
         self.impulses.fill(0.0);
+        let mut closing = Closing::default();
         self.convergence.begin(true);
         loop {
             if self.joints || self.part.len() > 0 {
@@ -149,6 +150,7 @@ impl MoreauSteps {
             self.matrix.solve(&mut self.rhs);
             self.rows.store_jacobian(system, &self.middle);
             self.respond(system, from, h, to)?;
+            closing.enter(&self.part);
             let square: f64 = self.rhs[..n].iter().zip(&self.scale).map(|(x, s)| (h * x / s).powi(2)).sum();
             let size = (square / n.max(1) as f64).sqrt();
             counters.add_full_iteration(1 + self.part.len() as u64);
@@ -166,6 +168,9 @@ impl MoreauSteps {
                     ));
                 }
             }
+        }
+        if let Some(row) = closing.driven(h, &self.scale) {
+            return Err(failure::driven(system, (from.t, h), row));
         }
         self.finish(system, from, h, to);
         if to.is_finite() {

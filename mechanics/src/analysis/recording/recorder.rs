@@ -198,9 +198,9 @@ impl<'a> Recorder<'a> {
     /// What makes the motion doubtful: the run has gained energy that nothing has put in, its energy balance does not close,
     /// a point may have stepped over an obstacle, or fixed steps do not resolve a vibration.
     fn warnings(&self, system: &mut dyn System, state: &State) -> Vec<Warning> {
-        let gain = self.gain.map(|excess| Warning::EnergyGained { excess });
+        let known = rounding_energy(system, state).max(f64::EPSILON * self.trajectory.largest_energy());
+        let gain = self.gain.filter(|excess| *excess > known).map(|excess| Warning::EnergyGained { excess });
         let doubtful = self.imbalance().or_else(|| self.unexplained());
-        let known = rounding_energy(system, state);
         let doubtful = doubtful.filter(|(size, _)| *size > known).map(|(_, warning)| warning);
         let stepped_over = self.stepped_over.clone();
         let stepped_over = stepped_over.map(|(time, contact)| Warning::SteppedOver { time, contact });

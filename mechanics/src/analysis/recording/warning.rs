@@ -49,8 +49,8 @@ pub enum Warning {
     },
     /// A point may have passed through an obstacle within a step of a method that locates no events.
     #[error(
-        "the contact `{contact}` may have passed through its obstacle in the step that ends at t = {time:.6} s: no events \
-         are located in it, and it is too long for an obstacle of this size"
+        "the contact `{contact}` may have passed through its obstacle, or touched it, within the step that ends at t = {time:.6} s: no events \
+         are located in it"
     )]
     SteppedOver {
         /// End of the first such step \[s\].

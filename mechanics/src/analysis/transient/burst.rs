@@ -33,13 +33,15 @@ const FIRST_PART: f64 = 0.125;
 const HALVINGS: u32 = 12;
 
 impl Run {
-    /// Leaves the contacts of `state` to a burst, if one of them rubs or more are closed than motions that they hold: its method opens all.
-    pub(super) fn leave_contacts(&mut self, system: &dyn System, state: &mut State) {
-        if !self.rubbing.is_on(state) && !self.contacts.as_ref().is_some_and(Contacts::are_dependent) {
-            return;
+    /// Leaves the contacts of `state` to a burst, if one of them rubs or more are closed than motions that they hold: a method that locates events begins with all open.
+    /// Tells whether it does.
+    pub(super) fn leave_contacts(&mut self, system: &dyn System, state: &mut State) -> bool {
+        let leaves = self.rubbing.is_on(state) || self.contacts.as_ref().is_some_and(Contacts::are_dependent);
+        if leaves {
+            self.bursts.due = Some(0.0);
+            open(system, state);
         }
-        self.bursts.due = Some(0.0);
-        open(system, state);
+        leaves
     }
 
     /// Leaves contacts that chatter from `state` on to a nonsmooth method. `mean` is the time between their events, 0 for contacts that [rub](super::rubbing) and are
@@ -184,9 +186,14 @@ impl Run {
 
 /// Opens all contacts.
 pub(super) fn open(system: &dyn System, state: &mut State) {
-    for (i, _) in system.rows().iter().enumerate().filter(|(_, set)| **set != Set::Free) {
+    for i in of_contacts(system) {
         (state.mode[i], state.lambda[i]) = (Mode::Open, 0.0);
     }
+}
+
+/// The rows of contacts.
+fn of_contacts(system: &dyn System) -> impl Iterator<Item = usize> {
+    system.rows().iter().enumerate().filter(|(_, set)| **set != Set::Free).map(|(i, _)| i)
 }
 
 /// The nonsmooth method of a burst.

@@ -84,6 +84,11 @@ impl Contacts {
         !self.resolved && self.map.are_dependent()
     }
 
+    /// Gives a state that was settled last the forces of its closed contacts.
+    pub(super) fn press(&mut self, state: &mut State) {
+        self.map.press(state);
+    }
+
     /// The impact at `state` with the impulse `p`: without restitution where it is slow.
     pub(super) fn strike(
         &mut self,
@@ -146,10 +151,21 @@ impl Contacts {
             .or_else(|| Together::of((0..sets.len()).filter_map(rubs)));
     }
 
-    /// Counts the events that follow each other with no time between them.
-    pub(super) fn count_event(&mut self, time: f64, part: f64) -> Result<(), RunError> {
+    /// Counts the events that follow each other with no time between them. Tells whether they are too many for this method, which a [burst](super::burst) ends.
+    ///
+    /// # Errors
+    /// Of continuous forces, for which there is no other method.
+    pub(super) fn count_event(&mut self, sets: &[Set], time: f64, part: f64) -> Result<bool, RunError> {
         self.events = if part < SHORT { self.events + 1 } else { 0 };
-        if self.events > MOST_EVENTS { Err(RunError::Chatter { time, count: self.events }) } else { Ok(()) }
+        let too_many = self.events > MOST_EVENTS;
+        let rigid = sets.iter().any(|set| matches!(set, Set::Unilateral { .. }));
+        if too_many && (self.resolved || !rigid) {
+            return Err(RunError::Chatter { time, count: self.events });
+        }
+        if too_many {
+            self.events = 0;
+        }
+        Ok(too_many)
     }
 }
 

@@ -171,10 +171,12 @@ impl Run {
         if integrator.resolves_contacts() {
             self.contacts = self.contacts.take().and_then(Contacts::of_indicators);
         }
+        let mut pressed = None;
         if let Some(contacts) = &mut self.contacts {
             contacts.settle(system, state)?;
             if !contacts.resolved {
-                self.leave_contacts(system, state);
+                let closed = state.clone();
+                pressed = self.leave_contacts(system, state).then_some(closed);
             }
         }
         observer.begin(integrator.resolves_contacts());
@@ -185,6 +187,11 @@ impl Run {
         let step = self.segment.map_or(plan.end - self.origin, |segment| segment.step);
         let started = integrator.start(system, state, step);
         let integration = started.map_err(|error| failed(system, state, error))?;
+        // The first row has what the contacts press at rest.
+        if let Some((mut closed, contacts)) = pressed.zip(self.contacts.as_mut()) {
+            contacts.press(&mut closed);
+            *state = closed;
+        }
         self.set_control(system, integrator.info(), state, plan);
         self.balance = observer.wants_energy_balance().then(|| Integral::new(system, state));
         let balance = self.balance.as_ref().map(Integral::balance);
@@ -519,8 +526,10 @@ impl Run {
                     return self.restart(system, integrator, state, (work, lost), happened, observer);
                 }
             };
-            if let Some(part) = event {
-                contacts.count_event(state.t, part)?;
+            if let Some(part) = event
+                && contacts.count_event(system.rows(), state.t, part)?
+            {
+                self.bursts.due = Some(f64::MIN_POSITIVE);
             }
             if contacts.resolved && !jump {
                 return self.restart(system, integrator, state, (work, lost), happened, observer);

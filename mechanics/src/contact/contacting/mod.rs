@@ -108,7 +108,7 @@ struct Placed {
 impl Placed {
     /// The point and the surface before it at a state.
     fn proximity(&self, model: &mut impl Points, s: &State) -> Proximity {
-        Proximity::new(model, self.contact.point, self.contact.obstacle.as_ref(), s)
+        Proximity::new(model, self.contact.point, self.contact.obstacle.as_ref(), self.friction.len() == 1, s)
     }
 
     /// Whether it is a row without a force.

@@ -25,12 +25,21 @@ pub(super) struct Proximity {
 }
 
 impl Proximity {
-    /// Of point `k` of a model before an obstacle.
-    pub fn new(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> Proximity {
+    /// Of point `k` of a model before an obstacle, whose friction has one row where it is `planar`.
+    pub fn new(
+        model: &mut impl Points,
+        k: usize,
+        obstacle: &dyn Obstacle,
+        planar: bool,
+        s: &State,
+    ) -> Proximity {
         model.approach(k, s, obstacle);
         let (motion, station) = (model.motion(k, s), model.station(k));
         let mut surface = obstacle.surface(motion.position, s.time());
         surface.gap -= motion.radius;
+        if planar {
+            surface = surface.in_plane();
+        }
         let velocity = motion.velocity - surface.velocity;
         let swept = motion.spin.cross(surface.normal);
         let touching = velocity - motion.radius * swept;

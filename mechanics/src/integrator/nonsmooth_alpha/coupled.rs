@@ -152,6 +152,7 @@ impl Coupled {
                 Progress::Diverged => return Err(work.not_converged(system, h, size)),
             }
         }
+        work.stopped(system, h)?;
         self.place(work, formulas, system, h, to);
         // What the smooth motion remembers, and what the state shows.
         work.smooth.a.copy_from_slice(&to.a);

@@ -37,6 +37,7 @@ impl Work {
         }
         self.keep_directions(system);
         report.iterations += self.correct(system, span.step, to, Level::Velocity, counters)?;
+        self.stopped(system, span.step)?;
         to.a.copy_from_slice(&self.trial.a);
         to.lambda.copy_from_slice(&self.trial.lambda);
         self.modes(&to.lambda, &mut to.mode);

@@ -49,7 +49,7 @@ mod decoupled;
 mod memory;
 
 use super::generalized_alpha::AlphaSteps;
-use super::impulses::Impulses;
+use super::impulses::{Closing, Impulses};
 use super::rows::Rows;
 use super::{
     Attempt, Checkpoint, Convergence, Counters, GeneralizedAlpha, Info, Integrator, InvalidParameter,
@@ -110,6 +110,8 @@ struct Work {
     impulses: Impulses,
     /// What the cone problems of the last iteration have left, of the position and of the velocity.
     residuals: [f64; 2],
+    /// How fast contacts close before each correction of the velocity.
+    closing: Closing,
     /// Jacobian at the start of the step, and the rows that acted then, but for friction that twists; whether a contact that takes part is one of them.
     before: Rows,
     acted: Vec<bool>,
@@ -176,6 +178,7 @@ impl Work {
             rows: Rows::new(system, &state()),
             impulses: Impulses::new(system, n + m),
             residuals: [0.0; 2],
+            closing: Closing::default(),
             before: Rows::new(system, &state()),
             acted: vec![false; m],
             twists: (0..m).map(|row| system.twists(row)).collect(),
@@ -213,7 +216,7 @@ impl Work {
 
     /// The start of a step: `from` with all contacts open and the accelerations of the smooth motion.
     fn begin(&mut self, from: &State) {
-        self.residuals = [0.0; 2];
+        (self.residuals, self.closing) = ([0.0; 2], Closing::default());
         (self.from.t, self.from.side) = (from.t, from.side);
         self.from.q.copy_from_slice(&from.q);
         self.from.v.copy_from_slice(&from.v);
@@ -254,6 +257,17 @@ impl Work {
     /// The error of contacts without a solution.
     fn unresolved(&self, system: &dyn Dynamics, step: f64, cause: Unresolved) -> StepError {
         failure::contacts(system, (self.from.t, step), cause, &self.rhs)
+    }
+
+    /// The end of the iterations of a step.
+    ///
+    /// # Errors
+    /// Where a contact still closes.
+    fn stopped(&self, system: &dyn Dynamics, step: f64) -> Result<(), StepError> {
+        match self.closing.driven(step * step, &self.scale) {
+            Some(row) => Err(failure::driven(system, (self.from.t, step), row)),
+            None => Ok(()),
+        }
     }
 
     /// Whether row `i` is a unilateral contact.
@@ -318,6 +332,9 @@ impl Work {
         };
         let solved = self.impulses.solve(matrix, &self.rows, value, forces, &mut self.rhs);
         self.residuals[level as usize] = self.impulses.residual;
+        if level == Level::Velocity {
+            self.closing.enter(&self.impulses);
+        }
         solved
     }
 
@@ -366,6 +383,13 @@ fn open(sets: &[Set], state: &mut State) {
     }
 }
 
+/// Closes the contacts again that were `closed`: they press as before until the end of the first step.
+fn press(sets: &[Set], closed: &State, state: &mut State) {
+    for (k, _) in sets.iter().enumerate().filter(|(_, set)| **set != Set::Free) {
+        (state.mode[k], state.lambda[k]) = (closed.mode[k], closed.lambda[k]);
+    }
+}
+
 impl Integrator for NonsmoothAlpha {
     fn info(&self) -> &Info {
         &self.info
@@ -382,6 +406,7 @@ impl Integrator for NonsmoothAlpha {
         _step: f64,
         counters: &mut Counters,
     ) -> Result<Box<dyn Stepper>, StepError> {
+        let closed = state.clone();
         open(system.rows(), state);
         // Without joints nothing is to be stabilized.
         let joints = system.rows().contains(&Set::Free);
@@ -394,6 +419,7 @@ impl Integrator for NonsmoothAlpha {
         };
         let mut steps = NonsmoothSteps { scheme, work: Work::new(system, state) };
         steps.restart(system, state, counters)?;
+        press(system.rows(), &closed, state);
         Ok(Box::new(steps))
     }
 }
@@ -471,6 +497,7 @@ impl Stepper for NonsmoothSteps {
         state: &mut State,
         counters: &mut Counters,
     ) -> Result<(), StepError> {
+        let closed = state.clone();
         open(system.rows(), state);
         match &mut self.scheme {
             Scheme::Coupled(coupled) => coupled.restart(system, state, counters)?,
@@ -478,6 +505,7 @@ impl Stepper for NonsmoothSteps {
         }
         self.work.from.copy_from(state);
         self.work.held.copy_from_slice(&state.lambda);
+        press(system.rows(), &closed, state);
         Ok(())
     }
 
