@@ -29,7 +29,7 @@ impl Closing {
     /// Takes what the problem solved last began with.
     pub(super) fn enter(&mut self, impulses: &Impulses) {
         self.last = impulses.worst;
-        self.largest = self.largest.max(impulses.worst.1);
+        self.largest = self.largest.max(impulses.closing);
     }
 
     /// The row of a contact that no finite force stops, with values that are displacements of a step over `unit`: prescribed motions, or contacts on both sides, drive it.
@@ -60,6 +60,8 @@ pub(super) struct Impulses {
     few: Few,
     /// The row of a contact that closes fastest before the problem solved last, and how fast: what problems that went before have not stopped.
     worst: (usize, f64),
+    /// How fast one closes before that problem and at the end of the increment that has no change of multipliers.
+    closing: f64,
     /// What is left of the problem solved last where it has [not settled](Augmented::unsettled), over its largest multiplier; else 0.
     pub(super) residual: f64,
 }
@@ -78,6 +80,7 @@ impl Impulses {
             leading: order.min(system.size().v + joints),
             few: Few::new(rows),
             worst: (0, 0.0),
+            closing: 0.0,
             residual: 0.0,
             rows: Vec::with_capacity(rows),
             laws: Vec::with_capacity(rows),
@@ -143,19 +146,20 @@ impl Impulses {
         x: &mut [f64],
     ) -> Result<(), Unresolved> {
         let (n, m) = (x.len(), self.rows.len());
-        (self.residual, self.worst) = (0.0, (0, 0.0));
+        (self.residual, self.worst, self.closing) = (0.0, (0, 0.0), 0.0);
         if m == 0 {
             return Ok(());
         }
+        let along = |row: usize, x: &[f64]| -> f64 {
+            jacobian.of_row(row).iter().map(|&(_, j, entry)| entry * x[j]).sum()
+        };
         for (&row, _) in self.rows.iter().zip(&self.laws).filter(|(_, law)| **law == RowLaw::Unilateral) {
             let closing = -value(row);
             if closing > self.worst.1 {
                 self.worst = (row, closing);
             }
+            self.closing = self.closing.max(closing).max(closing - along(row, x));
         }
-        let along = |row: usize, x: &[f64]| -> f64 {
-            jacobian.of_row(row).iter().map(|&(_, j, entry)| entry * x[j]).sum()
-        };
         if m > FEW
             && Augmented::solves(&self.laws)
             && let Some(many) = &mut self.many
