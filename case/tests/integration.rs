@@ -30,6 +30,7 @@ mod loads;
 mod modal_release;
 mod papers;
 mod pendulum;
+mod pressed;
 mod quantities;
 mod reported_errors;
 mod restart;

@@ -120,8 +120,8 @@ pub enum ImpactError {
     },
     /// Parts are pressed into each other that cannot give way.
     #[error(
-        "no finite {contact} stops what closes it: prescribed motions, or contacts on both sides, press into each other what cannot give way; \
-         drive it by a force, a torque or a spring, or end the motion before"
+        "no finite {contact} stops what closes it: prescribed motions, or contacts on both sides that friction may jam, press into each other what cannot give \
+         way; drive it by a force, a torque or a spring, end the motion before, or take less friction and restitution"
     )]
     Driven {
         /// Its unknown.

@@ -215,8 +215,8 @@ pub enum StepError {
     },
     /// Parts are pressed into each other that cannot give way.
     #[error(
-        "at t = {time:.6} s with a step of {step:.3e} s no finite {contact} stops what closes it: prescribed motions, or contacts on both sides, press \
-         into each other what cannot give way; drive it by a force, a torque or a spring, or end the motion before"
+        "at t = {time:.6} s with a step of {step:.3e} s no finite {contact} stops what closes it: prescribed motions, or contacts on both sides that friction may jam, press \
+         into each other what cannot give way; drive it by a force, a torque or a spring, end the motion before, or take less friction and restitution"
     )]
     Driven {
         /// Time at the start of the step \[s\].

@@ -383,10 +383,13 @@ fn open(sets: &[Set], state: &mut State) {
     }
 }
 
-/// Closes the contacts again that were `closed`: they press as before until the end of the first step.
+/// Gives `state` the modes, forces and accelerations of `closed` again, where contacts press: they do until the end of the first step.
 fn press(sets: &[Set], closed: &State, state: &mut State) {
-    for (k, _) in sets.iter().enumerate().filter(|(_, set)| **set != Set::Free) {
-        (state.mode[k], state.lambda[k]) = (closed.mode[k], closed.lambda[k]);
+    let mut contacts = sets.iter().zip(&closed.lambda).filter(|(set, _)| **set != Set::Free);
+    if contacts.any(|(_, force)| *force != 0.0) {
+        state.copy_modes(closed);
+        state.lambda.copy_from_slice(&closed.lambda);
+        state.a.copy_from_slice(&closed.a);
     }
 }
 
