@@ -9,7 +9,7 @@ pub(super) fn of_run(warning: &Warning, fixed: bool) -> String {
     let advice = match warning {
         Warning::EnergyGained { .. } if fixed => "; use a smaller step or the adaptive method `radau`",
         Warning::EnergyGained { .. } => "; use a tighter tolerance",
-        Warning::EnergyImbalance { .. } | Warning::EnergyLost { .. } | Warning::EnergyAdded { .. } => {
+        Warning::EnergyImbalance { .. } | Warning::EnergyUnexplained { .. } => {
             "; use smaller steps or a tighter tolerance"
         }
         Warning::SteppedOver { .. } if fixed => "; use smaller steps, or `radau`",

@@ -55,6 +55,17 @@ pub struct Unresolved {
     pub change: f64,
 }
 
+/// Parts are pressed into each other that cannot give way.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "no finite {contact} stops what closes it: prescribed motions, or contacts on both sides that friction may jam, press what cannot give way; use a force or \
+     a spring, end the motion before, or take less friction and restitution"
+)]
+pub struct Driven {
+    /// The unknown of the contact.
+    pub contact: String,
+}
+
 /// Rows up to which W is formed and relaxed: of more, see [`super::Augmented`].
 pub const FEW: usize = 12;
 

@@ -17,7 +17,7 @@
 //! (M + εK) v = M v⁻, and it is stopped without an impulse.
 
 use super::augmented::Augmented;
-use super::cone::{FEW, RowLaw, Unresolved};
+use super::cone::{Driven, FEW, RowLaw, Unresolved};
 use super::few::Few;
 use crate::linalg::{Matrix, Singular};
 use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
@@ -118,15 +118,9 @@ pub enum ImpactError {
         /// Where elimination broke down.
         cause: Singular,
     },
-    /// Parts are pressed into each other that cannot give way.
-    #[error(
-        "no finite {contact} stops what closes it: prescribed motions, or contacts on both sides that friction may jam, press into each other what cannot give \
-         way; drive it by a force, a torque or a spring, end the motion before, or take less friction and restitution"
-    )]
-    Driven {
-        /// Its unknown.
-        contact: String,
-    },
+    /// Nothing stops a contact.
+    #[error(transparent)]
+    Driven(#[from] Driven),
     /// The contacts were not resolved.
     #[error(transparent)]
     Unresolved(#[from] Unresolved),
@@ -248,7 +242,7 @@ impl ImpactMap {
             impact.lost -= 0.5 * x * (after + before[i]);
             let closes = matches!(self.sets[i], Set::Unilateral { .. }) && before[i] < -resting;
             if closes && after < DRIVEN * before[i] {
-                return Err(ImpactError::Driven { contact: system.unknown(n + i) });
+                return Err(Driven { contact: system.unknown(n + i) }.into());
             }
             impact.work -= x * moving;
         }

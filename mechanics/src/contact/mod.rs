@@ -21,7 +21,7 @@ mod obstacle;
 mod points;
 
 pub use augmented::Augmented;
-pub use cone::{FEW, RowLaw, Unresolved};
+pub use cone::{Driven, FEW, RowLaw, Unresolved};
 pub use contacting::{Contact, Contacting, Law};
 pub use few::Few;
 pub use force::{ContactForce, Dissipation, Response, delivered};

@@ -1,7 +1,7 @@
 //! Errors of a step, with the name of the unknown that shows them.
 
 use super::{Convergence, StepError};
-use crate::contact::Unresolved;
+use crate::contact::{Driven, Unresolved};
 use crate::linalg::Singular;
 use crate::system::{Dynamics, State};
 
@@ -45,7 +45,8 @@ pub(super) fn contacts(
 
 /// The error of a contact, of this row, that no finite force stops.
 pub(super) fn driven(system: &dyn Dynamics, (time, step): (f64, f64), row: usize) -> StepError {
-    StepError::Driven { time, step, contact: system.unknown(system.size().v + row) }
+    let contact = system.unknown(system.size().v + row);
+    StepError::Driven { time, step, cause: Driven { contact } }
 }
 
 /// The error of a Newton iteration that does not converge, whose last increment `x` is `size` times its tolerance.

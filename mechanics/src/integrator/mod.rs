@@ -213,18 +213,15 @@ pub enum StepError {
         /// Why.
         cause: crate::contact::Unresolved,
     },
-    /// Parts are pressed into each other that cannot give way.
-    #[error(
-        "at t = {time:.6} s with a step of {step:.3e} s no finite {contact} stops what closes it: prescribed motions, or contacts on both sides that friction may jam, press \
-         into each other what cannot give way; drive it by a force, a torque or a spring, end the motion before, or take less friction and restitution"
-    )]
+    /// Nothing stops a contact.
+    #[error("at t = {time:.6} s with a step of {step:.3e} s {cause}")]
     Driven {
         /// Time at the start of the step \[s\].
         time: f64,
         /// Step \[s\].
         step: f64,
-        /// Its unknown.
-        contact: String,
+        /// What is pressed into what.
+        cause: crate::contact::Driven,
     },
     /// The method cannot integrate this kind of system.
     #[error("{method} cannot integrate a system with {feature}; use {instead}")]

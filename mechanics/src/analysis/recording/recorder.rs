@@ -248,15 +248,10 @@ impl<'a> Recorder<'a> {
         let balance = self.trajectory.with_role(Role::Imbalance).next()?;
         let rows = || self.trajectory.times().iter().zip(self.trajectory.values(balance));
         let before = rows().take_while(|(t, _)| **t <= first).last().map_or(0.0, |(_, y)| y);
-        let behind = || rows().filter(|(t, _)| **t > first).map(|(_, y)| y - before);
-        let (lost, added) = (behind().map(|y| -y).fold(0.0, f64::max), behind().fold(0.0, f64::max));
-        let energy = lost.max(added);
-        let relative = energy / self.trajectory.largest_energy();
-        let warning = match lost >= added {
-            true => Warning::EnergyLost { lost, relative },
-            false => Warning::EnergyAdded { added, relative },
-        };
-        (relative > UNEXPLAINED).then_some((energy, warning))
+        let behind = rows().filter(|(t, _)| **t > first).map(|(_, y)| y - before);
+        let added = behind.fold(0.0_f64, |most, y| if y.abs() > most.abs() { y } else { most });
+        let relative = added.abs() / self.trajectory.largest_energy();
+        (relative > UNEXPLAINED).then_some((added.abs(), Warning::EnergyUnexplained { added, relative }))
     }
 
     /// The record of a run that has ended at `state`.

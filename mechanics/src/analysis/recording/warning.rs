@@ -23,28 +23,18 @@ pub enum Warning {
         /// Its largest value over the largest energy or work of the run.
         relative: f64,
     },
-    /// Steps lose energy of the vibrations that impacts excite.
+    /// Behind impacts steps lose energy of the vibrations that these excite, or energy comes that nothing has put in.
     #[error(
-        "{lost:.3e} J of energy have been lost since the first impact that impacts, dampers and loads do not explain, {:.1} % of the largest \
-         energy or work of the run: the steps damp the vibrations that impacts excite",
-        100.0 * relative
+        "{:.3e} J of energy have {} since the first impact that impacts, dampers and loads do not explain, {:.1} % of the largest energy or work of the run: the steps {}",
+        added.abs(),
+        if *added < 0.0 { "been lost" } else { "come" },
+        100.0 * relative,
+        if *added < 0.0 { "damp the vibrations that impacts excite" } else { "do not resolve what happens in impacts" }
     )]
-    EnergyLost {
-        /// Energy lost \[J\].
-        lost: f64,
-        /// The same over the largest energy or work of the run.
-        relative: f64,
-    },
-    /// Energy comes behind impacts that nothing has put in.
-    #[error(
-        "{added:.3e} J of energy have come since the first impact that loads and motions do not explain, {:.1} % of the largest \
-         energy or work of the run: the steps do not resolve what happens in their impacts",
-        100.0 * relative
-    )]
-    EnergyAdded {
-        /// Energy added \[J\].
+    EnergyUnexplained {
+        /// Energy added \[J\]: negative where it is lost.
         added: f64,
-        /// The same over the largest energy or work of the run.
+        /// Its size over the largest energy or work of the run.
         relative: f64,
     },
     /// A point may have passed through an obstacle within a step of a method that locates no events.
