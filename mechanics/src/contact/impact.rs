@@ -24,6 +24,8 @@ use crate::system::{Dynamics, Mode, RowWeights, Set, State, Weights};
 
 /// Part of a closing speed that no impulse takes, from which on what closes is driven.
 const DRIVEN: f64 = 0.1;
+/// Speed over the largest of an impact, to which the problem of many contacts is solved.
+const UNKNOWN: f64 = 1e-6;
 /// Velocity after an impact, over the largest before it, below which a contact counts as closed.
 const RESTING: f64 = 1e-12;
 /// Part of the limit of friction by which a contact that sticks must stay below it.
@@ -241,7 +243,7 @@ impl ImpactMap {
             let moving = before[i] - self.along(i, &state.v);
             impact.lost -= 0.5 * x * (after + before[i]);
             let closes = matches!(self.sets[i], Set::Unilateral { .. }) && before[i] < -resting;
-            if closes && after < DRIVEN * before[i] {
+            if closes && after < (DRIVEN * before[i]).min(-UNKNOWN * largest) {
                 return Err(Driven { contact: system.unknown(n + i) }.into());
             }
             impact.work -= x * moving;

@@ -87,6 +87,13 @@ impl State {
         self.copy_modes(other);
     }
 
+    /// Copies modes and memory, multipliers and accelerations.
+    pub(crate) fn copy_forces(&mut self, other: &State) {
+        self.copy_modes(other);
+        self.lambda.copy_from_slice(&other.lambda);
+        self.a.copy_from_slice(&other.a);
+    }
+
     /// Copies what does not change in a step: modes and memory.
     pub fn copy_modes(&mut self, other: &State) {
         self.mode.copy_from_slice(&other.mode);

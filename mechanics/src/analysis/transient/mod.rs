@@ -190,7 +190,7 @@ impl Run {
         // The first row has what the contacts press at rest.
         if let Some((mut closed, contacts)) = pressed.zip(self.contacts.as_mut()) {
             contacts.press(&mut closed);
-            *state = closed;
+            state.copy_forces(&closed);
         }
         self.set_control(system, integrator.info(), state, plan);
         self.balance = observer.wants_energy_balance().then(|| Integral::new(system, state));

@@ -387,9 +387,7 @@ fn open(sets: &[Set], state: &mut State) {
 fn press(sets: &[Set], closed: &State, state: &mut State) {
     let mut contacts = sets.iter().zip(&closed.lambda).filter(|(set, _)| **set != Set::Free);
     if contacts.any(|(_, force)| *force != 0.0) {
-        state.copy_modes(closed);
-        state.lambda.copy_from_slice(&closed.lambda);
-        state.a.copy_from_slice(&closed.a);
+        state.copy_forces(closed);
     }
 }
 
