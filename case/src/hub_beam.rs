@@ -6,7 +6,7 @@ use super::fault::{At, Fault, Faults, Found, Made};
 use super::features;
 use super::kind::{Context, Keys};
 use super::kinds::basis::{self, Bases};
-use super::kinds::contact::{Contact, Mount, OnBeam, Touching, contacts};
+use super::kinds::contact::{OnBeam, on_beam};
 use super::kinds::coupling::{Coupling, SPACE, SPACE_WITH_SHEAR, fits_whole_curve};
 use super::kinds::cross_section::Section;
 use super::kinds::damping::DAMPING;
@@ -18,7 +18,6 @@ use super::layout::{self, GRAVITY, HUB, MODEL_ON_HUB, ModelOnHub, OneBeam, SPATI
 use super::places::Place;
 use super::values::{Values, item, join};
 use flexion::basis::mesh;
-use flexion::contact::Law;
 use flexion::hub_beam::load::{self as acting, Axes};
 use flexion::hub_beam::{Damping, Drive, Hub, Mass};
 use flexion::linalg::Vec3;
@@ -138,13 +137,18 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
             .borrow_mut()
             .extend(width.and_then(|width| features::hidden(&section.planar, length, width)));
     }
-    let on_beam = |list: Vec<Contact>| {
-        let each = list.into_iter().enumerate();
-        each.map(|(i, contact)| on_beam(contact, c).map_err(|faults| faults.within(&item("contact", i))))
-            .collect::<Made<Vec<OnBeam>>>()
-    };
-    let contacts = found.part(contacts(v, c).and_then(on_beam));
+    let contacts = found.part(on_beam(v, c));
     let damping = found.part(DAMPING.make(v, c)).map(|list| list.first().copied().unwrap_or_default());
+    if let (Some(damping), Some(coupling), Some(section), Some(loads)) = (damping, coupling, &section, &loads)
+    {
+        let turns = |load: &Acting| load.mass.is_some_and(|mass| mass.inertia > 0.0);
+        let inertia = section.planar.resultants(0.0).rotary_inertia > 0.0 || loads.iter().any(turns);
+        if damping.mass > 0.0 && coupling.whole_curve && inertia {
+            let caution = "damping in proportion to the mass acts on velocities here, and not on the rotation of sections and masses, as with `first` \
+                           and `high`";
+            c.cautions.borrow_mut().push(caution.to_owned());
+        }
+    }
     if let (Some(method), Some(damping)) = (method, damping) {
         overdamped(method, damping, &mut found);
     }
@@ -363,44 +367,6 @@ fn spring(spring: &Spring, table: &str) -> Made<Acting> {
     let load = acting::Spring { station, stiffness, damping, anchor };
     let at = [vec![station], vec![station]];
     Ok(Acting::new(table.to_owned(), load, at, Some("springs to the ground")))
-}
-
-/// The points of a contact of the beam.
-fn on_beam(contact: Contact, c: &Context<'_>) -> Made<OnBeam> {
-    if let Touching::Beam(_) = contact.on {
-        let message = "is the whole beam, which touches a surface in the plane by points";
-        return Err(Fault::new("on", message).help("give their number, `points = 20`").into());
-    }
-    if contact.radius != 0.0 {
-        let message = "the axis of a beam on a hub touches, and has no radius";
-        return Err(Fault::new("radius", message).help("move the obstacle by the radius").into());
-    }
-    if let Mount::Part(_) = contact.mount {
-        let message =
-            "names a part of a beam on a hub, whose obstacles are fixed to the `ground` or the `hub`";
-        return Err(Fault::new("mount", message).help("in space, `[[beam]]`, bodies carry obstacles").into());
-    }
-    if !contact.obstacle.planar {
-        let message = "stands or moves across the plane of motion, that of x and y";
-        return Err(Fault::new("obstacle", message).help("let what it is made of lie in the plane").into());
-    }
-    let station = |place| if let Place::Station { s, .. } = place { s } else { f64::NAN };
-    let points = contact.points(c.parts()?, true).into_iter();
-    let points: Vec<(String, f64, Law)> =
-        points.map(|(name, place, law)| (name, station(place), law)).collect();
-    if points.windows(2).any(|two| two[0].1 >= two[1].1) {
-        return Err(Fault::new("on", "the stations of a contact ascend").into());
-    }
-    if points[0].1 == 0.0 {
-        return Err(Fault::new("on", "the root is clamped to the hub and touches nothing").into());
-    }
-    if contact.massless && points.iter().any(|(_, station, _)| Some(*station) != c.length) {
-        let message =
-            "only the tip can do without mass: at other stations a law with restitution or a force is needed";
-        let help = "write `law = { kind = \"constraint\", restitution = 0.5 }`";
-        return Err(Fault::new("law", message).help(help).into());
-    }
-    Ok(OnBeam { contact, points })
 }
 
 /// Whether the tip of a beam can do without mass where a contact wants it so; `why_not` says what gives it mass.

@@ -477,10 +477,10 @@ fn turning(v: &Values, start: &Start, c: &Context<'_>) -> Made<()> {
     if faults.0.is_empty() { Ok(()) } else { Err(faults) }
 }
 
-/// Refuses bodies and joints with the names of the beam, of its hub and of what it is fixed to.
+/// Refuses parts with the names of the beam, of its hub and of what it is fixed to.
 fn apart(lines: &[Line]) -> Made<()> {
     let mut faults = Faults::default();
-    for key in ["body", "joint"] {
+    for key in ["body", "joint", "mass", "spring", "load"] {
         for (i, table) in tables(lines, key).iter().enumerate() {
             let Raw::Table(lines) = &table.value else { continue };
             let Some(Node { value: Raw::Text(name), .. }) = written(lines, "name") else { continue };

@@ -26,7 +26,7 @@ fn shafts(names: &[&str], section: &str, axis: &str) -> Reading {
     let mut text = format!("rotation = {{ axis = {axis} }}\nrun = {{ duration = 0 }}\n");
     for name in names {
         text += &format!(
-            "[[beam]]\nname = '{name}'\nlength = {length}\nup = [0, 1, 0]\nroot = 'free'\nelements = 24\n\
+            "[[beam]]\nname = '{name}'\nlength = {length}\nup = [0, 1, 0]\nroot = 'free'\nelements = 12\n\
              section = {{ kind = 'circle', modulus = {modulus}, density = {density}, radius = {radius}{section} }}\n\
              [[joint]]\nkind = 'spherical'\nbetween = ['ground', '{name}.root']\n\
              [[joint]]\nkind = 'spherical'\nbetween = ['ground', '{name}.tip']\n"
@@ -255,7 +255,7 @@ fn beside(distance: f64) -> Reading {
     let (modulus, density) = (4.0 / (PI * radius.powi(4)), 1.0 / (PI * radius * radius));
     read(format!(
         "rotation = {{ axis = [1, 0, 0] }}\nrun = {{ duration = 0 }}\n[[beam]]\nname = 's'\nlength = 1\nstart = [0, 0, {distance}]\n\
-         up = [0, 1, 0]\nroot = 'clamped'\nelements = 24\n\
+         up = [0, 1, 0]\nroot = 'clamped'\nelements = 12\n\
          section = {{ kind = 'circle', modulus = {modulus}, density = {density}, radius = {radius} }}\n"
     ))
 }

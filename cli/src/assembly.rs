@@ -87,7 +87,7 @@ pub fn draw(reading: &Reading, file: &Path) -> Result<(), String> {
 /// Masses, degrees of freedom, constraints, and motions without stiffness.
 pub fn described(space: &Space) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
-    for body in &space.bodies {
+    for body in space.multibody.model().bodies() {
         let [x, y, z] = body.frame.position.0;
         rows.push(row(&body.name, format!("{:.6} kg at ({x:.6}, {y:.6}, {z:.6}) m", body.mass)));
     }
@@ -101,7 +101,7 @@ pub fn described(space: &Space) -> Vec<Vec<String>> {
             rows.extend(of_blade(beam));
         }
     }
-    let bodies = space.bodies.iter().map(|body| body.mass);
+    let bodies = space.multibody.model().bodies().iter().map(|body| body.mass);
     let total: f64 = bodies.chain(space.beams.iter().map(|(beam, _)| beam.mass())).sum();
     rows.push(row("total mass", format!("{total:.6} kg")));
     let system = &space.multibody;

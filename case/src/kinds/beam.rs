@@ -398,7 +398,7 @@ keys! {
         velocity: Option<Vec3> = vector(&VELOCITY);
         /// angular velocity at the start, in the axes of space; what the joints ask for, if left out
         spin: Option<Vec3> = vector(&ANGULAR_SPEED);
-        /// damping against the ground
+        /// damping against the ground, of lumped masses on it too
         damping: Damped = table();
     }
 }

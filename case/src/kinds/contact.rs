@@ -8,10 +8,12 @@ use crate::keys::{Field, Takes, integer, keys, kind, number, place, places, quan
 use crate::kind::{Choice, Context, Is, Kind, Of, Table};
 use crate::places::{Parts, Place};
 use crate::units::{LENGTH, VELOCITY};
-use crate::values::{Value, Values};
-use flexion::contact::{ContactForce, Dissipation, Law};
-use flexion::hub_beam;
+use crate::values::{Value, Values, item};
+use flexion::contact::{self as touch, ContactForce, Contacting, Dissipation, Law};
+use flexion::hub_beam::{self, HubBeam};
 use flexion::linalg::Vec3;
+use flexion::system::Fork;
+use std::sync::Arc;
 
 /// Most points of the whole beam.
 const MOST_POINTS: i64 = 1000;
@@ -351,6 +353,75 @@ pub fn contacts(v: &Values, c: &Context<'_>) -> Made<Vec<Contact>> {
         contacts[k].name = name;
     }
     Ok(contacts)
+}
+
+/// The contacts of a beam on a hub, with their points.
+///
+/// # Errors
+/// At a contact that such a beam does not have.
+pub fn on_beam(v: &Values, c: &Context<'_>) -> Made<Vec<OnBeam>> {
+    let each = contacts(v, c)?.into_iter().enumerate();
+    each.map(|(i, contact)| by_points(contact, c).map_err(|faults| faults.within(&item("contact", i))))
+        .collect()
+}
+
+/// The points of a contact of a beam on a hub.
+fn by_points(contact: Contact, c: &Context<'_>) -> Made<OnBeam> {
+    if let Touching::Beam(_) = contact.on {
+        let message = "is the whole beam, which touches a surface in the plane by points";
+        return Err(Fault::new("on", message).help("give their number, `points = 20`").into());
+    }
+    if contact.radius != 0.0 {
+        let message = "the axis of a beam on a hub touches, and has no radius";
+        return Err(Fault::new("radius", message).help("move the obstacle by the radius").into());
+    }
+    if let Mount::Part(_) = contact.mount {
+        let message =
+            "names a part of a beam on a hub, whose obstacles are fixed to the `ground` or the `hub`";
+        return Err(Fault::new("mount", message).help("in space, `[[beam]]`, bodies carry obstacles").into());
+    }
+    if !contact.obstacle.planar {
+        let message = "stands or moves across the plane of motion, that of x and y";
+        return Err(Fault::new("obstacle", message).help("let what it is made of lie in the plane").into());
+    }
+    let station = |place| if let Place::Station { s, .. } = place { s } else { f64::NAN };
+    let points = contact.points(c.parts()?, true).into_iter();
+    let points: Vec<(String, f64, Law)> =
+        points.map(|(name, place, law)| (name, station(place), law)).collect();
+    if points.windows(2).any(|two| two[0].1 >= two[1].1) {
+        return Err(Fault::new("on", "the stations of a contact ascend").into());
+    }
+    if points[0].1 == 0.0 {
+        return Err(Fault::new("on", "the root is clamped to the hub and touches nothing").into());
+    }
+    if contact.massless && points.iter().any(|(_, station, _)| Some(*station) != c.length) {
+        let message =
+            "only the tip can do without mass: at other stations a law with restitution or a force is needed";
+        let help = "write `law = { kind = \"constraint\", restitution = 0.5 }`";
+        return Err(Fault::new("law", message).help(help).into());
+    }
+    Ok(OnBeam { contact, points })
+}
+
+/// The beam with its contacts, every point one of its own.
+pub fn with_contacts<C: hub_beam::Coupling + Clone + 'static>(
+    beam: HubBeam<C>,
+    contacts: &[OnBeam],
+) -> Box<dyn Fork> {
+    let points = || contacts.iter().flat_map(|of| of.points.iter().map(move |point| (point, &of.contact)));
+    let at: Vec<_> = points().map(|((_, station, _), contact)| (*station, contact.mount.on_hub())).collect();
+    if at.is_empty() {
+        return Box::new(beam);
+    }
+    let made =
+        |(point, ((name, _, law), contact)): (usize, (&(String, f64, Law), &Contact))| touch::Contact {
+            name: name.clone(),
+            point,
+            obstacle: Arc::clone(&contact.obstacle.obstacle),
+            law: *law,
+        };
+    let contacts = points().enumerate().map(made).collect();
+    Box::new(Contacting::new(beam.with_contact_points(&at), contacts))
 }
 
 /// The law of one of the points, `spacing` \[m\] apart, by which a beam may touch everywhere and whose force is one per length: by the

@@ -1,11 +1,10 @@
 //! The kinematic model of the beam: kinds and how the system of each is assembled.
 
 use super::basis::Bases;
-use super::contact::{Contact, OnBeam};
+use super::contact::{OnBeam, with_contacts};
 use crate::fault::{At, Fault, Made};
 use crate::kind::{Choice, Is, Kind};
 use flexion::basis::Basis;
-use flexion::contact::{self as touch, Contacting, Law};
 use flexion::hub_beam::load::Load;
 use flexion::hub_beam::{
     self, Damping, ExactCoupling, Fields, Foreshortening, HighCoupling, Hub, HubBeam, LinearCoupling,
@@ -87,22 +86,7 @@ impl Assembly<'_> {
             system =
                 system.with_section_forces(self.beam, sampling, self.section_forces, self.strain_heights);
         }
-        let points =
-            || self.contacts.iter().flat_map(|of| of.points.iter().map(move |point| (point, &of.contact)));
-        let at: Vec<_> =
-            points().map(|((_, station, _), contact)| (*station, contact.mount.on_hub())).collect();
-        if at.is_empty() {
-            return Box::new(system);
-        }
-        let made =
-            |(point, ((name, _, law), contact)): (usize, (&(String, f64, Law), &Contact))| touch::Contact {
-                name: name.clone(),
-                point,
-                obstacle: Arc::clone(&contact.obstacle.obstacle),
-                law: *law,
-            };
-        let contacts = points().enumerate().map(made).collect();
-        Box::new(Contacting::new(system.with_contact_points(&at), contacts))
+        with_contacts(system, self.contacts)
     }
 }
 

@@ -41,6 +41,6 @@ pub static MASS: Table<Mass> = Table::list(
     "mass=[{on='tip', mass='300 g', inertia=2e-3}]",
     &Of(|k: Written, _| {
         let (beam, station) = k.on;
-        Ok(Mass { name: name(k.name, &[])?, beam, station, mass: k.mass, inertia: k.inertia })
+        Ok(Mass { name: name(k.name, &["ground"])?, beam, station, mass: k.mass, inertia: k.inertia })
     }),
 );

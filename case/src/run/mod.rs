@@ -7,6 +7,7 @@ pub(crate) mod clock;
 mod contact;
 pub(crate) mod error;
 mod files;
+mod plane;
 pub(crate) mod quantity;
 pub mod refine;
 mod restart;
@@ -28,6 +29,7 @@ use flexion::analysis::transient::{Ending, Plan, resumable, resume, transient_to
 use flexion::integrator::{Checkpoint, Info};
 use flexion::system::{Channel, State, System};
 use flexion_results::{Artifact, Errors, ProblemSize, Scene, Shapes, Status};
+use plane::Plane;
 use std::f64::consts::TAU;
 use std::ops::{ControlFlow, Deref};
 
@@ -51,6 +53,8 @@ pub struct Prepared {
     warnings: Vec<String>,
     /// What the beam bears at its contacts.
     limits: Vec<contact::Limit>,
+    /// Whether its planar beams stay in their plane.
+    plane: Plane,
     /// Time that this took \[s\], and that of the processor.
     taken: (f64, Option<f64>),
     /// Who is shown the records.
@@ -188,7 +192,7 @@ impl Reading {
             resumable(parts.0, parts.1, history, &state, &plan, case.output.energy_balance)
                 .map_err(|error| self.problem("initial.file", error.to_string()))?;
         }
-        let tables = self.copies();
+        let (tables, plane) = (self.copies(), Plane::new(&self.case, live.system.as_mut()));
         let Output { energy_balance, modal_shares, .. } = case.output;
         let (shapes, scene) = (self.shapes(), self.case.scene());
         Ok(Prepared {
@@ -203,6 +207,7 @@ impl Reading {
             history,
             warnings,
             limits: self.limits(),
+            plane,
             taken: clock.elapsed(),
             shown: None,
         })
@@ -410,6 +415,7 @@ impl Prepared {
             history,
             mut warnings,
             limits,
+            mut plane,
             taken,
             mut shown,
         } = self;
@@ -419,6 +425,7 @@ impl Prepared {
         let mut pictures = |system: &mut dyn System, state: &State| {
             shapes.iter_mut().for_each(|shapes| shapes.sample(system, state));
             scene.sample(system, state);
+            plane.look(system, state);
             if let Some(shown) = &mut shown {
                 row.resize(system.channels().len(), 0.0);
                 system.record(state, &mut row);
@@ -441,6 +448,7 @@ impl Prepared {
         let counters = checkpoint.counters().unwrap_or_default();
         let record = recorder.into_record(system.as_mut(), state, counters, ending);
         warnings.extend(system.cautions(&record.trajectory.peaks()));
+        warnings.extend(plane.warning());
         warnings.extend(contact::overloaded(&limits, &record.trajectory));
         warnings.extend(record.warnings.iter().map(|warning| cautions::of_run(warning, plan.step.is_some())));
         scene.draw(system.as_mut());

@@ -173,7 +173,9 @@ pub(super) fn add_mass(model: &mut Model, parts: &Placed<'_>, mass: &Mass, numbe
     let name = numbered(&mass.name, "mass", number);
     let radius = POINT * parts.beams[mass.beam].0.length;
     let inertia = mass.inertia.max(0.4 * mass.mass * radius * radius);
-    let body = Body::new(&name, mass.mass, [inertia; 3]).at(at);
+    let mut body = Body::new(&name, mass.mass, [inertia; 3]).at(at);
+    // As the beam that carries it.
+    [body.damping, _] = parts.beams[mass.beam].0.damping;
     let body = model.body(body);
     let ends = [part, body];
     model

@@ -2,7 +2,7 @@
 //!
 //! Source: R. D. Blevins, *Formulas for Natural Frequency and Mode Shape* (1979), tables 8-1 and 8-16.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// Root β L of cos z cosh z + 1 = 0 for bending mode `mode` = 1, 2, …, to the last digits at any order.
 ///
@@ -29,12 +29,6 @@ pub fn eigenvalue(mode: usize) -> f64 {
 /// ρA [kg/m], L \[m\], without shear and rotary inertia.
 pub fn bending_frequency(mode: usize, bending_stiffness: f64, mass: f64, length: f64) -> f64 {
     (eigenvalue(mode) / length).powi(2) * (bending_stiffness / mass).sqrt()
-}
-
-/// Angular frequency ω = (2i − 1)π/(2L) √(EA/ρA) of axial mode `mode` i = 1, 2, … [rad/s]; EA \[N\],
-/// ρA [kg/m], L \[m\].
-pub fn axial_frequency(mode: usize, axial_stiffness: f64, mass: f64, length: f64) -> f64 {
-    (2.0 * mode.max(1) as f64 - 1.0) * FRAC_PI_2 / length * (axial_stiffness / mass).sqrt()
 }
 
 /// (−1)ⁱ⁺¹: the sign of sin((i − ½)π).
@@ -69,6 +63,5 @@ mod tests {
     #[test]
     fn first_frequencies_are_the_tabulated_multiples() {
         assert!((bending_frequency(1, 2.0, 8.0, 1.0) / 0.5 - 3.516015).abs() < 1e-6);
-        assert!((axial_frequency(2, 2.0, 8.0, 1.0) / 0.5 - 4.712389).abs() < 1e-6);
     }
 }

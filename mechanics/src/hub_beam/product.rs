@@ -111,14 +111,14 @@ impl Bundle {
         if k >= self.terms {
             return 0.0;
         }
-        match (self.terms, self.width) {
-            (TERMS, 11) => self.form_of::<TERMS, 6>(k, x),
+        match (self.terms, self.lead) {
+            (TERMS, 5) => self.form_of::<TERMS, 6>(k, x),
             (TERMS, _) => self.form_of::<TERMS, 0>(k, x),
             _ => self.form_of::<2, 0>(k, x),
         }
     }
 
-    /// Σ xᵢ (2 Σⱼ Aᵢⱼ xⱼ − Aᵢᵢ xᵢ) over j ≥ i; `H` is the number of these entries of a row where it is known at compile time, or 0.
+    /// Σ xᵢ (2 Σⱼ Aᵢⱼ xⱼ − Aᵢᵢ xᵢ) over j ≥ i; `H` is the number of these entries of a row of a band where it is known at compile time, or 0.
     fn form_of<const T: usize, const H: usize>(&self, k: usize, x: &[f64]) -> f64 {
         let (mut sum, k) = (0.0, k.min(T - 1));
         for (i, row) in self.rows().enumerate() {
@@ -182,6 +182,50 @@ impl Bundle {
                 }
             }
             fill.fill(0.0);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn forms_are_those_of_all_entries_whatever_the_structure() {
+        let band = |n, half| Structure::band(n, half, half, 0);
+        let structures = (1..=16).flat_map(|n| {
+            [Structure::dense(n)]
+                .into_iter()
+                .chain((0..8).filter(move |half| *half < n).map(move |half| band(n, half)))
+        });
+        for structure in structures {
+            let (n, half) = (structure.order(), structure.half_bandwidth());
+            let [mut first, mut second] = [0, 1].map(|_| Matrix::new(&structure));
+            let entry = |i: usize, j: usize| 1.0 / (1 + i + j) as f64;
+            for i in 0..n {
+                for j in (0..n).filter(|j| i.abs_diff(*j) <= half) {
+                    first.add(i, j, entry(i, j));
+                    second.add(i, j, 2.0 * entry(i, j));
+                }
+            }
+            let x: Vec<f64> = (0..n).map(|i| 1.0 + (i * i) as f64).collect();
+            let near = |i: usize| (0..n).filter(move |j| i.abs_diff(*j) <= half);
+            let expected: f64 = (0..n)
+                .flat_map(|i| near(i).map(move |j| (i, j)))
+                .map(|(i, j)| x[i] * entry(i, j) * x[j])
+                .sum();
+            for matrices in
+                [[Some(&first), Some(&second), None, None], [Some(&first), Some(&second), Some(&first), None]]
+            {
+                let bundle = Bundle::new(&structure, n, matrices);
+                for (k, factor) in [(0, 1.0), (1, 2.0)] {
+                    let found = bundle.form(k, &x);
+                    assert!(
+                        (found / (factor * expected) - 1.0).abs() < 1e-13,
+                        "{structure:?}: {found} for {expected}"
+                    );
+                }
+            }
         }
     }
 }

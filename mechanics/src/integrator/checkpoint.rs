@@ -3,7 +3,7 @@
 use crate::system::{Mode, Side, State};
 
 /// The format of what methods and drivers keep: it changes when they keep something else.
-const FORMAT: f64 = 7.0;
+const FORMAT: f64 = 8.0;
 
 /// Lists in which NaN stands for what is not known yet: a step that was accepted, one before, factors; and what observers have seen.
 const UNKNOWN: [&str; 3] = ["accepted", "control", "tangent"];

@@ -42,7 +42,7 @@ pub use nonsmooth_alpha::NonsmoothAlpha;
 pub use radau::{Radau, Tolerance};
 pub use runge_kutta::RungeKutta;
 pub use stability::{StabilityLimit, largest_frequency};
-pub use step_control::{Law, StepControl};
+pub use step_control::StepControl;
 
 use crate::system::{Dynamics, Side, State};
 
@@ -115,7 +115,7 @@ pub struct StepReport {
 pub enum StepError {
     /// Newton's method did not converge.
     #[error(
-        "no convergence at t = {time:.6} s with a step of {step:.3e} s: after {iterations} iterations the increment is {size:.2e} times the tolerance, largest in the {worst}; try a smaller step, or Radau's method, whose steps adapt"
+        "no convergence at t = {time:.6} s with a step of {step:.3e} s: after {iterations} iterations the increment is {size:.2e} times the tolerance, largest in the {worst}; smaller steps may help, which Radau's method takes by itself, or other sizes of loads and stiffnesses"
     )]
     NotConverged {
         /// Time at the start of the step \[s\].
@@ -161,7 +161,7 @@ pub enum StepError {
     },
     /// A number that is not finite appeared.
     #[error(
-        "the solution is no longer finite at t = {time:.6} s with a step of {step:.3e} s (first in the {worst}); try a smaller step, or Radau's method, whose steps adapt"
+        "the solution is no longer finite at t = {time:.6} s with a step of {step:.3e} s (first in the {worst}); smaller steps may help, which Radau's method takes by itself, or other sizes of loads and stiffnesses"
     )]
     NotFinite {
         /// Time at the start of the step \[s\].

@@ -108,12 +108,6 @@ impl Convergence {
         Convergence { fading: 0.0, ..Convergence::simplified(tolerance, noise) }
     }
 
-    /// The same, with another largest size of increments that may be rounding errors.
-    #[must_use]
-    pub fn with_noise(self, noise: f64) -> Convergence {
-        Convergence { noise, ..self }
-    }
-
     /// Another size of the iteration error from now on.
     pub(super) fn aim(&mut self, tolerance: f64) {
         self.tolerance = tolerance;

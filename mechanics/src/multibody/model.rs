@@ -163,6 +163,11 @@ impl Model {
         Some(Marker { part, frame: Frame { position, rotation: inverse * space.rotation } })
     }
 
+    /// Its bodies, lumped masses among them.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
     /// Its springs.
     pub fn springs(&self) -> &[Spring] {
         &self.springs

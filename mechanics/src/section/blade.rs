@@ -73,11 +73,6 @@ impl BladeResultants {
         let inertia = [self.flap_inertia + self.chord_inertia, self.flap_inertia, self.chord_inertia];
         Matrices::principal(stiffness, self.mass, inertia)
     }
-
-    /// Whether there is what torsion needs: GJ and a polar inertia.
-    pub fn has_torsion(&self) -> bool {
-        self.torsional_stiffness > 0.0 && self.flap_inertia + self.chord_inertia > 0.0
-    }
 }
 
 /// The sections of a blade.

@@ -214,7 +214,7 @@ fn a_shaft_of_two_stiffnesses_is_unstable_between_its_two_critical_speeds() {
 /// rounding alone gives that a stiffness, of either sign by the mesh.
 #[test]
 fn a_free_spin_is_no_critical_speed() {
-    for elements in [4, 8, 12, 16] {
+    for elements in [4, 8, 16] {
         let shaft = Shaft {
             elements,
             discs: vec![(elements / 2, 3.0, [1e-6; 3])],

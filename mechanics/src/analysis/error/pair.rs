@@ -40,7 +40,7 @@ pub(super) fn is_small(of: &Trajectory, index: usize, size: f64) -> bool {
 }
 
 /// The size of a unit: the largest value that it has in any column; of a length that of the model, of a velocity also that which covers it in the time of
-/// the run or at the largest angular velocity, and of a moment also the largest energy.
+/// the run or at the largest angular velocity, of a moment also the largest energy, and of a momentum what the largest force makes in the time of the run.
 fn size_of(unit: &str, of: &Trajectory, size: f64) -> f64 {
     let channels = of.channels();
     let counts = |i: usize| !matches!(channels[i].role, Role::Integration | Role::Imbalance);
@@ -54,6 +54,8 @@ fn size_of(unit: &str, of: &Trajectory, size: f64) -> f64 {
         "m/s" => rate(size).max(size * own("rad/s")),
         "rad/s" => rate(1.0),
         "N*m" => own("J"),
+        "kg*m/s" => lasts * own("N"),
+        "kg*m^2/s" => lasts * own("N*m").max(own("J")),
         _ => 0.0,
     };
     own(unit).max(other)

@@ -1,6 +1,7 @@
 //! What a run passes through between its records: extremes of the channels, and how fast it vibrates.
 
 use super::trajectory::{COMPONENTS, Trajectory, continue_quaternions, vertex};
+use crate::analysis::energy_balance::EnergyBalance;
 use crate::integrator::Checkpoint;
 use crate::system::{Channel, Kind, Side, State, System};
 use std::f64::consts::TAU;
@@ -20,8 +21,41 @@ const SIGNS: &str = "quaternions";
 /// Unknowns that are looked at together.
 const LANES: usize = 4;
 
+/// The columns that are followed: the channels of a system, and behind them its energy and what it was done.
+#[derive(Clone, Debug)]
+pub(super) struct Followed {
+    /// Number of channels of the system.
+    pub own: usize,
+    /// Those that are parts of the total energy.
+    pub energies: Vec<usize>,
+    /// Whether work and losses are recorded, and those of contacts too.
+    pub balance: bool,
+    pub contacts: bool,
+}
+
+impl Followed {
+    /// How many they are.
+    pub fn len(&self) -> usize {
+        self.own + 1 + if self.balance { 3 + usize::from(self.contacts) } else { 0 }
+    }
+
+    /// Writes their values at a state.
+    pub fn write(&self, system: &mut dyn System, state: &State, balance: &EnergyBalance, row: &mut [f64]) {
+        let (own, rest) = row.split_at_mut(self.own);
+        system.record(state, own);
+        let total = match self.energies.as_slice() {
+            [] => system.energy(state).total(),
+            parts => parts.iter().map(|&i| own[i]).sum(),
+        };
+        let EnergyBalance { drive, loads, dissipated, contact, .. } = *balance;
+        rest.iter_mut().zip([total, drive, loads, dissipated, contact]).for_each(|(y, x)| *y = x);
+    }
+}
+
 /// Follows the accepted steps of a run, and its records.
 pub(super) struct Passing {
+    /// The columns of its rows.
+    pub(super) followed: Followed,
     /// Shortest time between rows in the present step \[s\].
     apart: f64,
     /// The last four rows with their times, and how many of them belong to one smooth motion.
@@ -46,22 +80,31 @@ pub(super) struct Passing {
     /// Whether velocities may jump in any step.
     pub(super) rough: bool,
     last: State,
+    balance: EnergyBalance,
     /// Σ |Δv|² h² and Σ |Δq|² over the steps.
     sums: [f64; 2],
 }
 
 impl Passing {
-    pub(super) fn new(channels: &[Channel], scales: &[f64], state: &State, ahead: f64) -> Passing {
-        let row = || (state.t, vec![0.0; channels.len()]);
-        let pressing = channels.iter().enumerate().filter(|(_, c)| c.kind == Kind::NonNegative);
+    /// Follows the first columns of a run.
+    pub(super) fn new(
+        followed: Followed,
+        channels: &[Channel],
+        (scales, state): (&[f64], &State),
+        ahead: f64,
+    ) -> Passing {
+        let width = followed.len();
+        let row = || (state.t, vec![0.0; width]);
+        let pressing = channels.iter().take(width).enumerate().filter(|(_, c)| c.kind == Kind::NonNegative);
         Passing {
+            followed,
             apart: 0.0,
             rows: [row(), row(), row(), row()],
             count: 0,
             recorded: false,
             line: Line::new(scales, state),
             ahead,
-            seen: vec![[f64::INFINITY, f64::NEG_INFINITY]; channels.len()],
+            seen: vec![[f64::INFINITY, f64::NEG_INFINITY]; width],
             turns: true,
             cut: false,
             skipped: false,
@@ -69,6 +112,7 @@ impl Passing {
             quaternions: Vec::new(),
             rough: false,
             last: state.clone(),
+            balance: EnergyBalance::default(),
             sums: [0.0; 2],
         }
     }
@@ -81,19 +125,30 @@ impl Passing {
     /// Takes the end of a step; it becomes a row where a channel may turn near its extremes. Where accelerations leave the [line](Line) through
     /// those of the last row, the end before it does, and this one if it is off the line from there. The states before and behind an event count,
     /// however near to a row.
-    pub(super) fn enter(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
+    pub(super) fn enter(
+        &mut self,
+        system: &mut dyn System,
+        (state, balance): (&State, &EnergyBalance),
+        trajectory: &mut Trajectory,
+    ) {
         let h = state.t - self.last.t;
         if h > 0.0 {
             self.begin(h);
         }
         let follows = self.catch_up(system, state, trajectory);
         self.measure(h, state);
-        self.offer(system, (state, follows), trajectory);
+        self.balance = *balance;
+        self.offer(system, (state, balance, follows), trajectory);
     }
 
     /// Takes a state; `trajectory` learns the extremes, also those of the parabola through three of them.
-    pub(super) fn show(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
-        self.offer(system, (state, false), trajectory);
+    pub(super) fn show(
+        &mut self,
+        system: &mut dyn System,
+        (state, balance): (&State, &EnergyBalance),
+        trajectory: &mut Trajectory,
+    ) {
+        self.offer(system, (state, balance, false), trajectory);
     }
 
     /// Makes the end of the last step a row where the motion until `state` leaves the line; gives whether it needs no row here.
@@ -106,7 +161,7 @@ impl Passing {
         let mut follows = self.line.holds(system, state) && !self.rough;
         if self.skipped && (self.cut || !follows && !self.is_near(self.last.t)) {
             let before = std::mem::take(&mut self.last);
-            self.evaluate(system, &before, trajectory);
+            self.evaluate(system, (&before, &self.balance.clone()), trajectory);
             if !self.cut {
                 self.find_vertices(trajectory);
             }
@@ -125,7 +180,7 @@ impl Passing {
     fn offer(
         &mut self,
         system: &mut dyn System,
-        (state, follows): (&State, bool),
+        (state, balance, follows): (&State, &EnergyBalance, bool),
         trajectory: &mut Trajectory,
     ) {
         let behind = std::mem::take(&mut self.cut);
@@ -149,15 +204,21 @@ impl Passing {
             self.skipped = true;
             return;
         }
-        self.evaluate(system, state, trajectory);
+        self.evaluate(system, (state, balance), trajectory);
         if !same {
             self.find_vertices(trajectory);
         }
     }
 
     /// Makes a state a row, whose values `trajectory` learns.
-    fn evaluate(&mut self, system: &mut dyn System, state: &State, trajectory: &mut Trajectory) {
-        system.record(state, self.add(state));
+    fn evaluate(
+        &mut self,
+        system: &mut dyn System,
+        (state, balance): (&State, &EnergyBalance),
+        trajectory: &mut Trajectory,
+    ) {
+        self.add(state);
+        self.followed.write(system, state, balance, &mut self.rows[3].1);
         let [.., (_, before), (_, now)] = &mut self.rows;
         continue_quaternions(&self.quaternions, before, now);
         for (i, y) in self.rows[3].1.iter().enumerate() {
@@ -414,6 +475,8 @@ mod tests {
     fn a_crest_within_the_first_step_is_found_by_the_records() {
         let mut trajectory = Trajectory::new(vec![super::super::trajectory::tests::channel("y", "m")]);
         let mut passing = Passing {
+            followed: Followed { own: 1, energies: Vec::new(), balance: false, contacts: false },
+            balance: EnergyBalance::default(),
             apart: 1e-6,
             rows: std::array::from_fn(|_| (0.0, vec![0.0])),
             count: 0,

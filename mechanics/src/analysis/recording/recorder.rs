@@ -2,7 +2,7 @@
 
 use super::Record;
 use super::events::Events;
-use super::passing::Passing;
+use super::passing::{Followed, Passing};
 use super::trajectory::Trajectory;
 use super::warning::Warning;
 use crate::analysis::energy_balance::rounding_energy;
@@ -54,10 +54,6 @@ pub struct Recorder<'a> {
     trajectory: Trajectory,
     events: Events,
     common: Common,
-    /// Number of channels of the system.
-    own: usize,
-    /// Channels of the system that are parts of the total energy.
-    energies: Vec<usize>,
     gain: Option<f64>,
     /// The first time at which a point may have stepped over an obstacle, and the name of its contact.
     stepped_over: Option<(f64, String)>,
@@ -152,9 +148,9 @@ impl<'a> Recorder<'a> {
             violation: (system.size().lambda > 0).then(|| Violation::new(system)),
             modes: (0..system.size().v).filter(across).collect(),
         };
-        let mut passing = Passing::new(&channels, system.scales(), state, plan.sample);
-        let own = channels.len();
+        let followed = Followed { own: channels.len(), energies, balance, contacts: common.contacts };
         common.observe(state, &Step::default(), 0.0, &mut Sink::channels(&mut channels));
+        let mut passing = Passing::new(followed, &channels, (system.scales(), state), plan.sample);
         let mut trajectory = Trajectory::new(channels);
         passing.quaternions = trajectory.quaternions();
         trajectory.reserve((plan.end / plan.sample).min(1e7) as usize + 2);
@@ -162,8 +158,6 @@ impl<'a> Recorder<'a> {
             trajectory,
             events,
             common,
-            own,
-            energies,
             gain: None,
             stepped_over: None,
             chatter: None,
@@ -286,22 +280,19 @@ impl Observer for Recorder<'_> {
         if let Some(violation) = &mut self.common.violation {
             violation.evaluate(system, state);
         }
+        let balance = step.balance.unwrap_or_default();
         if self.trajectory.is_empty() {
-            self.passing.enter(system, state, &mut self.trajectory);
+            self.passing.enter(system, (state, &balance), &mut self.trajectory);
         }
         self.passing.begin(step.size);
         self.passing.catch_up(system, state, &mut self.trajectory);
         let passing = &mut self.passing;
         let mut taken = false;
         self.trajectory.push(state.t, |row| {
-            let (own, common) = row.split_at_mut(self.own);
-            system.record(state, own);
-            taken = passing.take(state, own);
-            let total = match self.energies.as_slice() {
-                [] => system.energy(state).total(),
-                recorded => recorded.iter().map(|&i| own[i]).sum(),
-            };
-            self.common.observe(state, step, total, &mut Sink::row(common));
+            let (own, width) = (passing.followed.own, passing.followed.len());
+            passing.followed.write(system, state, &balance, &mut row[..width]);
+            taken = passing.take(state, &mut row[..width]);
+            self.common.observe(state, step, row[own], &mut Sink::row(&mut row[own..]));
         });
         if taken {
             self.passing.find_vertices(&mut self.trajectory);
@@ -356,14 +347,16 @@ impl Observer for Recorder<'_> {
         }
     }
 
-    fn passing(&mut self, system: &mut dyn System, state: &State) {
-        self.passing.enter(system, state, &mut self.trajectory);
+    fn passing(&mut self, system: &mut dyn System, state: &State, step: &Step) {
+        let balance = step.balance.unwrap_or_default();
+        self.passing.enter(system, (state, &balance), &mut self.trajectory);
         self.events.pass(system, state);
     }
 
     fn between(&mut self, system: &mut dyn System, state: &State, step: &Step) {
         self.passing.begin(step.size);
-        self.passing.show(system, state, &mut self.trajectory);
+        let balance = step.balance.unwrap_or_default();
+        self.passing.show(system, (state, &balance), &mut self.trajectory);
         self.events.look(system, state);
     }
 

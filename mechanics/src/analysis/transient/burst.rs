@@ -104,7 +104,7 @@ impl Run {
         }
         observer.begin(false);
         observer.event(&Event { time: state.t, kind: EventKind::Switch, modes: state.mode.clone() });
-        observer.passing(system, state);
+        observer.passing(system, state, &self.passed());
         if let Some(control) = &mut self.control {
             control.restart(self.bursts.longest);
         }

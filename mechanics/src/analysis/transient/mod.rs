@@ -318,7 +318,7 @@ impl Run {
                     observer.within(system, &self.middle, weight * h);
                 }
             }
-            observer.passing(system, &next);
+            observer.passing(system, &next, &self.passed());
             self.bursts.count(system, h, struck.as_ref());
             let rests = self.bursts.rest();
             if report.unsettled > 0.0 {
@@ -343,7 +343,7 @@ impl Run {
             if event || at_break.is_some() {
                 self.cross(system, integrator, state, at_break, event.then_some(h / attempted), observer)?;
                 contact = self.contacts.as_mut().and_then(|contacts| contacts.last.take());
-                observer.passing(system, state);
+                observer.passing(system, state, &self.passed());
                 if let Some(control) = &mut self.control {
                     control.restart(attempted);
                 }
@@ -408,7 +408,7 @@ impl Run {
         (state.t, state.side) = (to, side);
         let at_break = jump_at(system, integrator.info(), to);
         self.cross(system, integrator, state, at_break, None, observer)?;
-        observer.passing(system, state);
+        observer.passing(system, state, &self.passed());
         self.begins = true;
         self.divide(system, integrator, to, plan);
         Ok(())

@@ -87,7 +87,7 @@ pub trait Observer {
     fn begin(&mut self, _jumps: bool) {}
 
     /// An accepted step ended at `state`, or a jump: what happens between samples is seen here.
-    fn passing(&mut self, _system: &mut dyn System, _state: &State) {}
+    fn passing(&mut self, _system: &mut dyn System, _state: &State, _step: &Step) {}
 
     /// A state between the ends of a step that is the first or the last of a smooth motion, in order of time with the samples.
     fn between(&mut self, _system: &mut dyn System, _state: &State, _step: &Step) {}

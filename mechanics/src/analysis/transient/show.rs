@@ -32,9 +32,13 @@ impl Run {
     ) {
         let interval = self.interval(plan);
         if state.t > self.origin + multiple(self.samples - 1, interval) + 1e-9 * interval {
-            let balance = self.balance.as_ref().map(Integral::balance);
-            observer.sample(system, state, &Step { balance, ..self.last });
+            observer.sample(system, state, &self.passed());
         }
+    }
+
+    /// The last step, with the balance at its end.
+    pub(super) fn passed(&self) -> Step {
+        Step { balance: self.balance.as_ref().map(Integral::balance), ..self.last }
     }
 
     /// Shows the observer the samples in the step, and what it passes between the ends of a step that begins or `ends` a smooth motion.
@@ -59,7 +63,8 @@ impl Run {
             let (t, slack) = self.next_sample(plan);
             while let Some(t) = passed.next_if(|x| *x < t) {
                 integrator.interpolate(system, from, to, t, &mut self.middle);
-                observer.between(system, &self.middle, &self.last);
+                let balance = self.balance.as_ref().map(|integral| integral.until((from, to), t));
+                observer.between(system, &self.middle, &Step { balance, ..self.last });
             }
             if t > to.t + slack {
                 return;

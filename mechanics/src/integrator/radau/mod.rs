@@ -44,13 +44,15 @@
 //! estimate 3. Stability: A- and L-stable; frequencies far above 1/h are annihilated, those below are
 //! integrated with a dissipation of O((hω)⁶). Dense output: quintic Hermite through q, v, a at both ends;
 //! measured four to eight times as accurate as the collocation polynomial; forces of joints by this polynomial. At the times of the
-//! stages it is the stages. In steps that an event has cut to a small part velocities and accelerations are lines, and in those behind a blow on a
+//! stages it is the stages. Where a step behind a break begins with a velocity that tells nothing of it, that of a load's rate in vibrations much faster than
+//! the step, it is the polynomial through the stages, which have forgotten it. In steps that an event has cut to a small part velocities and accelerations are lines, and in those behind a blow on a
 //! damped beam, whose first accelerations decay within a part of the step.
 //!
 //! Sources: Hairer & Wanner, *Solving Ordinary Differential Equations II*, sections IV.5 and IV.8
 //! (doi 10.1007/978-3-642-05221-7); Hairer & Wanner (1999, doi 10.1016/S0377-0427(99)00134-X).
 
 mod coefficients;
+mod dense;
 mod prediction;
 mod stages;
 mod tolerance;
@@ -60,6 +62,7 @@ use super::{
     Span, StepError, StepReport, Stepper, hermite,
 };
 use crate::system::{Dynamics, State};
+use dense::{BLIND, RESOLVED};
 use prediction::Prediction;
 use stages::{Stages, weights};
 pub use tolerance::Tolerance;
@@ -79,7 +82,7 @@ const LARGEST_ITERATION_ERROR: f64 = 1e-5;
 /// Part of a step of good accuracy below which one from the same start is short: what iteration and rounding leave of its increment is divided by h².
 const SHORT: f64 = 1.0 / 32.0;
 
-/// Most steps behind a blow that go over what decays faster than themselves.
+/// Most steps behind a blow, or behind a break, that go over what is faster than themselves.
 const SETTLING: u8 = 8;
 
 /// The 3-stage Radau IIA method. Its formulas head the source file.
@@ -107,6 +110,10 @@ struct RadauSteps {
     line: bool,
     /// Steps that may be of the kind behind a blow.
     settling: u8,
+    /// Steps behind a restart that may begin with a velocity that tells nothing of them, and whether the accepted step did: its dense output is
+    /// that of its stages.
+    beginning: u8,
+    blind: bool,
     stages: Stages,
 }
 
@@ -167,6 +174,8 @@ impl Integrator for Radau {
             good: 0.0,
             line: false,
             settling: 0,
+            beginning: SETTLING,
+            blind: false,
             stages: Stages::new(system, state, self.tolerance),
         };
         steps.restart(system, state, counters)?;
@@ -247,7 +256,9 @@ impl Stepper for RadauSteps {
         self.convergence.aim(self.kappa[0]);
         (self.accepted, self.tried) = (Some(self.attempt), None);
         let short = self.attempt < SHORT * self.good;
-        let settles = self.settling > 0 && !self.stages.resolve(from, to);
+        self.blind = self.beginning > 0 && !self.stages.resolve(from, to, BLIND);
+        self.beginning = if self.blind { self.beginning - 1 } else { 0 };
+        let settles = self.settling > 0 && !self.stages.resolve(from, to, RESOLVED);
         self.settling = if settles || short { self.settling.saturating_sub(1) } else { 0 };
         (self.line, self.good) = (short || settles, 0.0);
         self.stages.accept();
@@ -256,6 +267,10 @@ impl Stepper for RadauSteps {
     fn interpolate(&self, system: &dyn Dynamics, from: &State, to: &State, t: f64, out: &mut State) {
         if self.line {
             hermite::line(system, from, to, &self.stages.end_accepted, t, out);
+        } else if self.blind {
+            hermite::linear(from, to, t, out);
+            self.stages.collocate(system, (from, to), t, out);
+            self.stages.interpolate_forces((t - from.t) / (to.t - from.t), out);
         } else if !self.stages.write_stage(system, (from, to), t, out) {
             hermite::quintic(system, from, to, &self.stages.end_accepted, t, out);
             self.stages.interpolate_forces((t - from.t) / (to.t - from.t), out);
@@ -269,6 +284,7 @@ impl Stepper for RadauSteps {
         counters: &mut Counters,
     ) -> Result<(), StepError> {
         (self.accepted, self.tried, self.good, self.settling) = (None, None, 0.0, 0);
+        self.beginning = SETTLING;
         self.convergence.forget();
         self.stages.restart(system, state, counters)
     }
@@ -278,14 +294,15 @@ impl Stepper for RadauSteps {
     }
 
     fn save(&self, out: &mut Checkpoint) {
-        out.put("accepted", &[self.accepted.unwrap_or(f64::NAN), f64::from(self.settling)]);
+        let counts = [self.settling, self.beginning].map(f64::from);
+        out.put("accepted", &[self.accepted.unwrap_or(f64::NAN), counts[0], counts[1]]);
         out.put("convergence", &self.convergence.memory());
         self.stages.save(out);
     }
 
     fn resume(&mut self, system: &mut dyn Dynamics, from: &Checkpoint) -> Result<(), NotResumed> {
-        let [accepted, settling] = from.numbers("accepted")?;
-        self.settling = settling as u8;
+        let [accepted, settling, beginning] = from.numbers("accepted")?;
+        (self.settling, self.beginning) = (settling as u8, beginning as u8);
         self.accepted = Some(accepted).filter(|step| step.is_finite());
         self.convergence.recall(from.numbers("convergence")?);
         self.stages.resume(system, from)

@@ -5,7 +5,7 @@ use super::super::joint_forces::JointForces;
 use super::super::kept::{KeptTangent, corotation};
 use super::super::rows::Rows;
 use super::super::{Checkpoint, Convergence, Counters, NotResumed, Progress, StepError, failure};
-use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, GAMMA, MU, T, T_INVERSE, lagrange};
+use super::coefficients::{A, A_INVERSE, A2, A2_INVERSE, C, E_Q, E_V, GAMMA, MU, T, T_INVERSE};
 use super::tolerance::Tolerance;
 use crate::linalg::Matrix;
 use crate::system::{Corotation, Dynamics, Mode, RowWeights, Set, Side, State, Weights, is_active};
@@ -15,15 +15,8 @@ use num_complex::Complex64;
 /// 22 from step to step, and it must not grow. Control would take it for an error of the step, the same in every shorter one.
 const STABLE: f64 = 0.02;
 
-/// Part of ½h (|a₀| + |a₁|) by which v₁ − v₀ may be off the trapezium in a step that resolves its accelerations: (hω)²/12 of a vibration.
-/// A reaction is a small difference of the forces of inertia and strain, of which the quintic must hold more digits than of either.
-const RESOLVED: f64 = 0.002;
-
 /// Names of the stages' accelerations in a checkpoint.
 const NAMES: [&str; 3] = ["stage.1", "stage.2", "stage.3"];
-
-/// Difference of two parts of a step that are the same but for rounding.
-const SAME: f64 = 1e-9;
 
 /// What stands for the step in kept factors: they serve a step of the very same size.
 pub(super) fn weights(h: f64) -> [f64; 2] {
@@ -34,7 +27,7 @@ pub(super) fn weights(h: f64) -> [f64; 2] {
 #[derive(Debug)]
 pub(super) struct Stages {
     accelerations: Accelerations,
-    rows: Rows,
+    pub(super) rows: Rows,
     pub(super) is_vector_space: bool,
     /// Increments D of the stages, their rates Ḋ, and the scaled square of their last change, where the configuration is
     /// no vector space.
@@ -49,7 +42,7 @@ pub(super) struct Stages {
     stage_corotation: [Corotation; 3],
     real: Matrix,
     complex: Matrix<Complex64>,
-    scale: Vec<f64>,
+    pub(super) scale: Vec<f64>,
     inverse_weight: Vec<f64>,
     pub(super) forces: JointForces,
     stage: State,
@@ -430,63 +423,6 @@ impl Stages {
                 if done {
                     break;
                 }
-            }
-        }
-    }
-
-    /// Whether the accelerations at both ends of a step tell its change of velocity.
-    pub(super) fn resolve(&self, from: &State, to: &State) -> bool {
-        let half = 0.5 * (to.t - from.t);
-        let ends = from.v.iter().zip(&to.v).zip(from.a.iter().zip(&to.a));
-        let [mut off, mut size] = [0.0_f64; 2];
-        for (((v0, v1), (a0, a1)), scale) in ends.zip(&self.scale) {
-            off = off.max((v1 - v0 - half * (a0 + a1)).abs() / scale);
-            size = size.max(half * (a0.abs() + a1.abs()) / scale);
-        }
-        off <= RESOLVED * size
-    }
-
-    /// Writes the stage of the accepted step at the time `t`, if there is one inside it: its state as it was found, and not one of the dense
-    /// output, which knows the ends of the step alone. What is integrated through the stages has the order and the damping of the method.
-    pub(super) fn write_stage(
-        &self,
-        system: &dyn Dynamics,
-        (from, to): (&State, &State),
-        t: f64,
-        out: &mut State,
-    ) -> bool {
-        let h = to.t - from.t;
-        let Some(i) = (0..2).find(|i| ((t - from.t) / h - C[*i]).abs() <= SAME) else { return false };
-        let n = from.v.len();
-        let (row, row2) = (A[i].map(|x| h * x), A2[i].map(|x| h * h * x));
-        let stages = &self.a_accepted;
-        let along =
-            |row: [f64; 3], k: usize| row[0] * stages[0][k] + row[1] * stages[1][k] + row[2] * stages[2][k];
-        for k in 0..n {
-            // The acceleration's slot holds the increment until the configuration is retracted.
-            out.a[k] = if self.is_vector_space {
-                C[i] * h * from.v[k] + along(row2, k)
-            } else {
-                self.increments[i][k]
-            };
-            out.v[k] = from.v[k] + along(row, k);
-        }
-        system.retract(&from.q, &out.a, &mut out.q);
-        let (a, lambda) = stages[i].split_at(n);
-        out.a.copy_from_slice(a);
-        out.lambda.copy_from_slice(lambda);
-        out.copy_modes(from);
-        (out.t, out.side) = (t, Side::Right);
-        true
-    }
-
-    /// λ of the joints at the part `s` of the accepted step, by the polynomial through the stages.
-    pub(super) fn interpolate_forces(&self, s: f64, out: &mut State) {
-        let n = out.v.len();
-        let weights = lagrange(s);
-        for (k, set) in self.rows.sets().iter().enumerate() {
-            if *set == Set::Free {
-                out.lambda[k] = (0..3).map(|i| weights[i] * self.a_accepted[i][n + k]).sum();
             }
         }
     }
