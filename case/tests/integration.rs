@@ -20,6 +20,7 @@ mod disturbance;
 mod docs;
 mod elastodyn;
 mod energy;
+mod extremes;
 mod first_look;
 mod four_bar;
 mod frequency_orders;

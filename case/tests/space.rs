@@ -482,3 +482,48 @@ fn a_general_section_without_rotary_inertia_says_what_to_write() {
     }
     assert!(read(", rotary-inertia = 4e-5, rotary-inertia-across = 3e-5").is_ok());
 }
+
+/// A body beside the plane takes a beam out of it whose section is known in it alone: the run says so, and none where it stays.
+#[test]
+fn a_planar_beam_that_leaves_its_plane_is_told() {
+    const CASE: &str = "
+model.coupling = 'space'
+hub.motion = { kind = 'spin-up', speed = 3, time = 1 }
+beam.length = 1
+section = { kind = 'resultants', mass-per-length = 1, axial-stiffness = 1e6, bending-stiffness = 10 }
+run.duration = '0.3 s'
+body = [{ name = 'x', mass = 3, position = [1, 0, 0], inertia = { kind = 'sphere', radius = 0.1 } }]
+joint = [{ kind = 'fixed', between = ['beam.tip', 'x'] }]
+";
+    let told = |set: &[&str]| {
+        let run = crate::written::finished(&crate::written::reading(CASE, set));
+        run.all_warnings().any(|said| said.contains("leaves the plane of x and y"))
+    };
+    assert!(told(&["body.1.position=[1, 0, 0.2]"]));
+    assert!(told(&["body.1.spin=[0, 1, 0]", "body.1.inertia={kind='principal', moments=[0.1, 0.2, 0.3]}"]));
+    assert!(!told(&[]));
+}
+
+/// Damping in proportion to the mass is that of lumped masses too, ζ = β/2ω of a light beam with a mass at its tip.
+#[test]
+fn lumped_masses_are_damped_with_their_beam_in_the_plane_and_in_space() {
+    const CASE: &str = "
+beam.length = '1 m'
+section = { kind = 'resultants', mass-per-length = 1e-3, axial-stiffness = 1e6, bending-stiffness = 50 }
+hub.motion = { kind = 'constant', speed = 0 }
+mass = [{ on = 'tip', mass = 0.1 }]
+damping.mass = 0.5
+load = [{ on = 'tip', force = [0, 1] }]
+run.duration = '2 s'
+";
+    let finals = |coupling: &str| {
+        let run = crate::written::finished(&crate::written::reading(CASE, &[coupling]));
+        ["tip.deflection", "energy.dissipated"]
+            .map(|name| run.trajectory.column(name).and_then(|column| column.last().copied()).unwrap())
+    };
+    let [deflection, lost] = finals("model.coupling=exact");
+    assert!(lost > 1e-3, "{lost}");
+    let [in_space, lost_in_space] = finals("model.coupling=space");
+    assert!((deflection - in_space).abs() < 1e-3 * 0.0133, "{deflection} {in_space}");
+    assert!((lost / lost_in_space - 1.0).abs() < 3e-3, "{lost} {lost_in_space}");
+}
