@@ -189,7 +189,7 @@ fn impacts_that_gain_energy_are_warned_of() {
             low = low.min(imbalance);
             rise = rise.max(imbalance - low);
         }
-        let of_energy = ["energy has grown", "energy balance is off"];
+        let of_energy = ["energy has grown", "energy balance is off", "of energy have come since"];
         let warned =
             run.warnings.iter().find(|warning| of_energy.iter().any(|words| warning.contains(words)));
         let warned = warned.cloned();

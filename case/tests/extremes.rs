@@ -22,7 +22,10 @@ fn a_stiff_beam_does_not_overshoot_behind_a_ramp() {
             let run = finished(&reading(BEAM, &[&set[0], &set[1]]));
             let of = run.trajectory.extremes(run.trajectory.index("tip.deflection").unwrap());
             assert!((of.max / 1e-8 - 1.0).abs() < 3e-5, "{coupling}, {step} s: {}", of.max);
-            assert!(!run.all_warnings().any(|said| said.contains("not to be trusted")), "{coupling}, {step} s");
+            assert!(
+                !run.all_warnings().any(|said| said.contains("not to be trusted")),
+                "{coupling}, {step} s"
+            );
         }
     }
 }

@@ -1692,7 +1692,7 @@ SystemBeam = TypedDict(
         "velocity": "list[Quantity]",
         # angular velocity at the start, in the axes of space; what the joints ask for, if left out
         "spin": "list[Quantity]",
-        # damping against the ground
+        # damping against the ground, of lumped masses on it too
         "damping": "SystemBeamDamping",
     },
     total=False,

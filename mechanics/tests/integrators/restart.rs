@@ -25,8 +25,9 @@ impl Watch {
         Watch { seen: Vec::new(), until }
     }
 
+    /// What is seen behind a time; events of a step are at its end but for rounding.
     fn after(&self, time: f64) -> &[(f64, Vec<u64>)] {
-        &self.seen[self.seen.iter().take_while(|(t, _)| *t <= time).count()..]
+        &self.seen[self.seen.iter().take_while(|(t, _)| *t <= time + 1e-12).count()..]
     }
 }
 
