@@ -167,7 +167,7 @@ fn the_branches_of_shafts_that_are_free_to_turn_are_their_whirls() {
     for names in [&["s"][..], &["s", "t"]] {
         let reading = shafts(names, ", rotary-inertia = true", "[1, 0, 0]");
         let units = Units { speed: Frequencies::RADIANS, frequency: Frequencies::RADIANS };
-        let speeds = (0..=5).map(|i| 500.0 * f64::from(i)).collect();
+        let speeds = (0..=10).map(|i| 250.0 * f64::from(i)).collect();
         let (count, threads) = (8 * names.len(), 1);
         let request =
             DiagramRequest { speeds, count, revolutions: 1, margin: 5.0, free_hub: false, threads, units };
