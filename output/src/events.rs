@@ -1,4 +1,4 @@
-//! `events.csv`: impacts of a run, and contacts that close, open, slip or stick.
+//! `events.csv`: impacts of a run, contacts that close, open, slip or stick, forces that touch and leave, and bursts of impacts.
 
 use super::csv::io_error;
 use super::{Entry, Events};

@@ -403,7 +403,7 @@ fn by_points(contact: Contact, c: &Context<'_>) -> Made<OnBeam> {
     Ok(OnBeam { contact, points })
 }
 
-/// The beam with its contacts, every point one of its own.
+/// The beam with its contacts, one for each point in their order; the beam alone where there are none.
 pub fn with_contacts<C: hub_beam::Coupling + Clone + 'static>(
     beam: HubBeam<C>,
     contacts: &[OnBeam],

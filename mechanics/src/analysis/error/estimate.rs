@@ -11,19 +11,19 @@
 //! p ≥ 1, with half as much again in reserve for p ≥ 2. The factor 1.1 is for what y_x is off itself. Vibration modes converge more slowly than that when the beam
 //! rotates fast, and functions other than elements where a section jumps or a load or mass sits within them: S = 4.
 //!
-//! Of the smallest, largest and last value, found at t*, the error is (`Pair::of_values`)
+//! Of the smallest, largest and last value, found at t*, between records too, the error is (the bracket is `Pair::of_values`)
 //!
 //! ```text
 //! e = S max(|Δ value|, |Δy(t*)|, ¼ max_{t ≤ t*} |Δy(t)|, d min(1, d/(0.1 Y))) + 10⁻¹² Y,   Δy = y − y_f,   d = max_t |Δy|,   Y = max_t |y_f|
 //! ```
 //!
-//! Δ value is the difference of the values of both runs, each at its own t*; it is left out where the companion ends earlier. Δy(t*) is that of the last record not after t*. The third term is for a difference that passes through zero at t*, the last for vibrations that the mesh does not resolve, whose phases
+//! Δ value is the difference of the values of both runs, each at its own t*; it is left out where the companion ends earlier, and e is not known (NaN) where t* lies behind that. Δy(t*) is that of the last record not after t*. The third term is for a difference that passes through zero at t*, the last for vibrations that the mesh does not resolve, whose phases
 //! differ.
 //!
 //! Half the step would not serve where vibrations are hardly resolved, for errors do not fall like hᵖ there. So `Radau`
 //! runs all companions: those of its own runs with a tenth of their tolerance, which makes the error 18 times smaller
 //! (h ∼ tol^(1/4), error ∼ h⁵), or 6 times where only the stages' order counts (error ∼ h³), and with steps
-//! below half of its longest, and twice as many between two breaks: where the interval of recording bounds the steps, or a load acts
+//! of at most half of its longest, and twice as many between two breaks: where the interval of recording bounds the steps, or a load acts
 //! for a short time, those of the run may all be as long as that, and within every tolerance. Vibrations far smaller than the tolerance
 //! are damped by such steps, by slightly shorter ones too: a companion with 0.9 of the step has nearly the same error. Those of fixed steps have
 //! the tolerances 10⁻⁵, 10⁻⁷ and 10⁻⁹ in turn, until two of them differ by half of what the run differs from the
@@ -317,6 +317,10 @@ fn finer_run<P: Refinable>(
         }
         let next = finer.by_radau(*rung).with_shorter_parts();
         let Ok(finest) = until_impact(problem, &next, watch) else { break };
+        if finest.ending == Ending::Stopped {
+            // Given up for its work: the one before has gone to the end.
+            break;
+        }
         let settled = settled(run, &fine, &finest);
         (finer, fine) = (next, finest);
         if settled {

@@ -1,4 +1,4 @@
-//! The events of a run at its contacts: impacts, and contacts that close, open, slip or stick.
+//! The events of a run at its contacts: impacts, contacts that close, open, slip or stick, forces that touch and leave, and bursts of impacts.
 
 use super::rigid::{Burst, Closed, Rigid};
 use super::trajectory::vertex;

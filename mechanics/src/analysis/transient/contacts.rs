@@ -28,7 +28,7 @@ const SHORT: f64 = 1e-6;
 pub(super) struct Contacts {
     pub(super) locator: Locator,
     map: ImpactMap,
-    /// Largest closing speed so far [m/s].
+    /// Largest speed so far with which the gap of any contact closed at an event, whether it touched or not [m/s].
     fastest: f64,
     /// Bounds of what bounces not followed would have done.
     pub(super) neglected: Neglected,
@@ -114,7 +114,7 @@ impl Contacts {
         Ok(impact)
     }
 
-    /// Whether a contact has closed with a speed.
+    /// Whether a gap was closing at an event.
     pub(super) fn has_struck(&self) -> bool {
         self.fastest > 0.0
     }

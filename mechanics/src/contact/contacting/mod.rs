@@ -117,15 +117,13 @@ impl Placed {
         matches!(self.contact.law, Law::Constraint { .. }) && rows.into_iter().all(|i| s.lambda[i] == 0.0)
     }
 
-    /// The same, if it may act on the model: a row always, a force where the point touches.
+    /// The point and the surface before it, if it may act on the model: a row always, a force where the point touches.
     fn acting(&self, model: &mut impl Points, s: &State) -> Option<Proximity> {
         let Contact { point, obstacle, law, .. } = &self.contact;
         let away = matches!(law, Law::Force(_)) && Proximity::is_away(model, *point, obstacle.as_ref(), s);
         (!away).then(|| self.proximity(model, s))
     }
-}
 
-impl Placed {
     /// The forces at a state.
     fn forces(&self, near: &Proximity, s: &State, memory: usize) -> Forces {
         match &self.contact.law {

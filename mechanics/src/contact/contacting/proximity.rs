@@ -25,7 +25,7 @@ pub(super) struct Proximity {
 }
 
 impl Proximity {
-    /// Of point `k` of a model before an obstacle, whose friction has one row where it is `planar`.
+    /// Of point `k` of a model before an obstacle; `planar` where its friction has one row, along the first tangent.
     pub fn new(
         model: &mut impl Points,
         k: usize,

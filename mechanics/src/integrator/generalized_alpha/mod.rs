@@ -34,10 +34,11 @@
 //! without bound.
 //!
 //! Newton's method is modified: tangent and factors are kept from step to step, and made anew as soon as a step takes more
-//! iterations than the mean step since the last renewal, the cost of the renewal included (`kept.rs`). An iteration ends when the
-//! increments are small (`newton.rs`); with constraints or rotations, when they are rounding errors; and the forces of joints have settled (`joint_forces.rs`). An affine system is solved exactly
+//! iterations than the mean step since the last renewal, the cost of the renewal included (`../kept.rs`). An iteration with one tangent ends when the
+//! increments are small (`../newton.rs`); with constraints or rotations, when they are rounding errors; and the forces of joints have settled (`../joint_forces.rs`).
+//! Newton's method proper, which follows where that fails and in Euler steps, ends at 10⁻¹⁰. An affine system is solved exactly
 //! by one iteration with the tangent of its step.
-//! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time, and for those of undamped frequencies far above
+//! The predictor is q̈ₙ₊₁ = q̈ₙ + q̈ₙ₋₁ − q̈ₙ₋₂: exact for accelerations linear in time in equal steps, and for those of undamped frequencies far above
 //! 1/h, which change their sign at each step of a method without dissipation. Until three accelerations are known it is constant, then linear; λ is that of the last step.
 //!
 //! Behind a jump of a force on little mass h² q̈ₙ is no displacement of a step. Where in the first step behind a restart Newton's method
@@ -300,7 +301,10 @@ impl AlphaSteps {
                 self.simplified.forget();
                 self.kept.unrotate();
             }
-            Tangents::Newton => return self.full.begin(true),
+            Tangents::Newton => {
+                self.kept.unrotate();
+                return self.full.begin(true);
+            }
         }
         self.simplified.begin(tangents == Tangents::New);
     }
