@@ -1643,7 +1643,7 @@ SystemBeamDamping = TypedDict(
     },
     total=False,
 )
-"""Damping against the ground."""
+"""Damping against the ground, of lumped masses on it too."""
 
 SystemBeam = TypedDict(
     "SystemBeam",
