@@ -144,7 +144,7 @@ pub(super) fn make(v: &Values, c: &Context<'_>, method: Option<&Method>) -> Made
         let turns = |load: &Acting| load.mass.is_some_and(|mass| mass.inertia > 0.0);
         let inertia = section.planar.resultants(0.0).rotary_inertia > 0.0 || loads.iter().any(turns);
         if damping.mass > 0.0 && coupling.whole_curve && inertia {
-            let caution = "damping in proportion to the mass acts on velocities here, and not on the rotation of sections and masses, as with `first` \
+            let caution = "damping in proportion to the mass acts on the velocity of the axis here, and not on the rotation of sections and masses, as it does with `first` \
                            and `high`";
             c.cautions.borrow_mut().push(caution.to_owned());
         }
