@@ -21,6 +21,7 @@ kind = "radau"
 duration = "0.5 s"
 [output]
 step = "7 ms"
+plots = false
 "#;
 
 const INTEGRATORS: &[&str] = &[
@@ -202,6 +203,7 @@ elements = 3
 duration = 0.2
 [output]
 step = 1e-3
+plots = false
 ";
     const HARD: &str =
         "contact=[{on='tip',obstacle={kind='plane',point=[0,0.05]},law={kind='constraint',restitution=0.5}}]";
@@ -251,7 +253,7 @@ fn a_run_that_is_stopped_while_contacts_chatter_or_rub_goes_on_bit_by_bit() {
     const ARM: &str = "
 gravity = [0, -9.81]
 run = { duration = 0.5 }
-output = { step = '2 ms' }
+output = { step = '2 ms', plots = false }
 beam = { length = 1 }
 damping = { stiffness = '0.2 ms' }
 section = { kind = 'circle', modulus = '2 GPa', density = 1200, radius = '5 mm' }
@@ -268,7 +270,7 @@ law = { kind = 'constraint', restitution = 0.2 }
     const BALL: &str = "
 gravity = [0, 0, -9.81]
 run = { duration = 1 }
-output = { step = '5 ms' }
+output = { step = '5 ms', plots = false }
 [[body]]
 name = 'ball'
 mass = 1
@@ -286,7 +288,7 @@ law = { kind = 'constraint', restitution = 0.2, friction = 0.3 }
     const FEET: &str = "
 gravity = [0, 0, -9.81]
 run = { duration = 1 }
-output = { step = '5 ms' }
+output = { step = '5 ms', plots = false }
 [[body]]
 name = 'box'
 mass = 1

@@ -1,7 +1,7 @@
 //! Contacts: what may touch which obstacle, and what happens then.
 
 use super::name::{NAME, name, numbered};
-use super::obstacle::{OBSTACLE, Placed};
+use super::obstacle::{Mounted, OBSTACLE};
 use crate::declaration::Bound::*;
 use crate::fault::{Fault, Made};
 use crate::keys::{Field, Takes, integer, keys, kind, number, place, places, quantity, vector};
@@ -32,7 +32,7 @@ pub struct Contact {
     /// What the obstacle is fixed to.
     pub mount: Mount,
     /// The obstacle, in axes of what it is fixed to.
-    pub obstacle: Placed,
+    pub obstacle: Mounted,
     /// What happens at a touch; the stiffness of a force on points along a whole beam is one per length.
     pub law: Law,
     /// Whether the tip loses its mass for it.
@@ -302,7 +302,7 @@ keys! {
         /// nothing holds it
         points: Option<usize> = integer(1, MOST_POINTS);
         /// rigid obstacle
-        obstacle: Placed = kind(&OBSTACLE);
+        obstacle: Mounted = kind(&OBSTACLE);
         /// part that the obstacle is fixed to, in whose axes and from whose point it is given: `ground`, `hub`, a body or a place of a beam in
         /// space; the ground if left out, the hub of a stop
         mount: Option<Mount> = place();

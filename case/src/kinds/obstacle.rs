@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// An obstacle.
 #[derive(Clone, Debug)]
-pub struct Placed {
+pub struct Mounted {
     /// Its surface, in axes of what it is fixed to.
     pub obstacle: Arc<dyn Obstacle>,
     /// Whether its part in the plane of x and y is all that a point of this plane sees of it.
@@ -58,14 +58,14 @@ fn motion(moved: Option<Moved>, c: &Context<'_>) -> Made<Option<Translation>> {
 }
 
 /// An obstacle that is fixed where its mount is said.
-fn placed(
+fn mounted(
     obstacle: Arc<dyn Obstacle>,
     motion: &Option<Translation>,
     planar: bool,
     assumed: Option<&'static str>,
-) -> Placed {
+) -> Mounted {
     let stays = motion.as_ref().is_none_or(|motion| motion.direction[2] == 0.0);
-    Placed { obstacle, planar: planar && stays, stop: false, assumed }
+    Mounted { obstacle, planar: planar && stays, stop: false, assumed }
 }
 
 keys! {
@@ -108,7 +108,7 @@ keys! {
 }
 
 /// The kinds of obstacle.
-pub static OBSTACLE: Choice<Placed> = Choice {
+pub static OBSTACLE: Choice<Mounted> = Choice {
     name: "obstacle",
     path: "contact.obstacle",
     summary: "rigid obstacle that a point may touch",
@@ -129,7 +129,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     (None, angle) => Plane::inclined(point, angle.unwrap_or(0.0), motion.clone()),
                 };
                 let planar = plane.normal[2] == 0.0;
-                Ok(placed(Arc::new(plane), &motion, planar, assumed.then_some("normal")))
+                Ok(mounted(Arc::new(plane), &motion, planar, assumed.then_some("normal")))
             }),
         },
         Kind {
@@ -142,7 +142,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                 let assumed = axis.is_none().then_some("axis");
                 let axis = axis.unwrap_or(Vec3([0.0, 0.0, 1.0]));
                 let cylinder = Circle { centre, axis, radius, hollow, motion: motion.clone() };
-                Ok(placed(Arc::new(cylinder), &motion, axis[0] == 0.0 && axis[1] == 0.0, assumed))
+                Ok(mounted(Arc::new(cylinder), &motion, axis[0] == 0.0 && axis[1] == 0.0, assumed))
             }),
         },
         Kind {
@@ -153,7 +153,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
             make: &Of(|Ball { centre, radius, inside: hollow, motion: moved }, c| {
                 let motion = motion(moved, c)?;
                 let sphere = Sphere { centre, radius, hollow, motion: motion.clone() };
-                Ok(placed(Arc::new(sphere), &motion, centre[2] == 0.0, None))
+                Ok(mounted(Arc::new(sphere), &motion, centre[2] == 0.0, None))
             }),
         },
         Kind {
@@ -173,7 +173,7 @@ pub static OBSTACLE: Choice<Placed> = Choice {
                     normal: Vec3([0.0, -offset.signum(), 0.0]),
                     motion: None,
                 };
-                Ok(Placed { obstacle: Arc::new(plane), planar: true, stop: true, assumed: None })
+                Ok(Mounted { obstacle: Arc::new(plane), planar: true, stop: true, assumed: None })
             }),
         },
     ],

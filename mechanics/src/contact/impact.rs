@@ -128,7 +128,7 @@ pub enum ImpactError {
     Unresolved(#[from] Unresolved),
 }
 
-/// Solves impacts of a system; allocates when it is made.
+/// Solves impacts of a system.
 #[derive(Debug)]
 pub struct ImpactMap {
     sets: Vec<Set>,

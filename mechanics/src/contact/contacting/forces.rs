@@ -1,6 +1,6 @@
 //! Normal force and friction of a contact at a state.
 
-use super::proximity::Proximity;
+use super::Proximity;
 use crate::contact::obstacle::Surface;
 use crate::linalg::Vec3;
 use crate::linalg::vector::inner;

@@ -22,23 +22,25 @@
 //! impose the rows, `analysis::transient` locates and resolves impacts. A [`Law::Force`] is a load; its closing speed is written into
 //! `State::memory` by the event g = 0 at which a contact begins.
 
+mod events;
 mod forces;
 mod observed;
-mod proximity;
 
 use super::force::ContactForce;
-use super::obstacle::Obstacle;
-use super::points::{Curve, Points, Variation};
+use super::obstacle::{Obstacle, Surface};
+use super::points::{Curve, PointMotion, Points, TOUCHING, Variation};
 use crate::linalg::vector::inner;
 use crate::linalg::{Matrix, Structure, Vec3};
 use crate::system::{
-    Break, Corotation, Crossing, Dynamics, Events, Jump, Limit, Mode, NotSet, Observed, Parameter, Power,
-    RowWeights, Set, Size, State, Steady, StiffnessForm, VisitRow, Weights, ordered,
+    Break, Corotation, Dynamics, Events, Mode, Observed, Power, RowWeights, Set, Size, State, StiffnessForm,
+    VisitRow, Weights, ordered,
 };
 use forces::Forces;
-use proximity::Proximity;
 use std::ops::Range;
 use std::sync::Arc;
+
+/// Square of the speed over twice the acceleration and the way, up to which one is what the other makes of it, twice that of a constant acceleration.
+const AT_REST: f64 = 4.0;
 
 /// What happens when a point touches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -147,12 +149,111 @@ impl Placed {
             }
         }
     }
+
     /// Power lost in friction and damping.
     fn lost(&self, near: &Proximity, forces: &Forces) -> f64 {
         let friction = -inner(forces.friction, near.sliding);
         let Law::Force(law) = &self.contact.law else { return friction };
         let elastic = law.normal(-near.surface.gap, 0.0, 0.0).value;
         friction - (forces.normal - elastic) * near.rate
+    }
+}
+
+/// A point and the surface before it.
+struct Proximity {
+    motion: PointMotion,
+    surface: Surface,
+    /// w = ṗ − u
+    velocity: Vec3,
+    /// Arc length of the nearest point of a curve.
+    station: Option<f64>,
+    /// ġ
+    rate: f64,
+    /// c, the velocity of what touches: w, of a ball w − R ω × n.
+    touching: Vec3,
+    /// t₁·c, t₂·c
+    sliding: [f64; 2],
+}
+
+impl Proximity {
+    /// Of point `k` of a model before an obstacle; `planar` where its friction has one row, along the first tangent.
+    fn new(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, planar: bool, s: &State) -> Proximity {
+        model.approach(k, s, obstacle);
+        let (motion, station) = (model.motion(k, s), model.station(k));
+        let mut surface = obstacle.surface(motion.position, s.time());
+        surface.gap -= motion.radius;
+        if planar {
+            surface = surface.in_plane();
+        }
+        let velocity = motion.velocity - surface.velocity;
+        let swept = motion.spin.cross(surface.normal);
+        let touching = velocity - motion.radius * swept;
+        let (rate, sliding) = (surface.normal.dot(velocity), surface.tangents.map(|t| t.dot(touching)));
+        Proximity { motion, surface, velocity, station, rate, touching, sliding }
+    }
+
+    /// Whether point `k` is known not to touch, at less cost than that of its motion.
+    fn is_away(model: &mut impl Points, k: usize, obstacle: &dyn Obstacle, s: &State) -> bool {
+        if model.station(k).is_some() {
+            // It would have to be found for that.
+            return false;
+        }
+        model.approach(k, s, obstacle);
+        let placed = model.position(k, s);
+        placed.is_some_and(|(position, radius)| obstacle.surface(position, s.time()).gap > radius)
+    }
+
+    /// The speed −ġ with which it touches; 0 where it has none but what its acceleration makes of a rounding of the gap, in a system of this `length` \[m\]: a
+    /// contact that begins at rest.
+    fn closing_speed(&self, length: f64) -> f64 {
+        let least = AT_REST * self.acceleration().abs() * TOUCHING * length;
+        if self.rate < 0.0 && self.rate * self.rate > least { -self.rate } else { 0.0 }
+    }
+
+    /// g̈
+    fn acceleration(&self) -> f64 {
+        let (path, acceleration) = self.path();
+        self.surface.normal.dot(acceleration) + self.turned(path)[0].dot(self.velocity)
+    }
+
+    /// Rate of the sliding velocity along tangent `i`.
+    fn sliding_rate(&self, i: usize) -> f64 {
+        let PointMotion { radius, spin, spin_rate, .. } = self.motion;
+        let ((path, acceleration), normal) = (self.path(), self.surface.normal);
+        let turned = self.turned(path);
+        let swept = spin_rate.cross(normal) + spin.cross(turned[0]);
+        let acceleration = acceleration - radius * swept;
+        self.surface.tangents[i].dot(acceleration) + turned[1 + i].dot(self.touching)
+    }
+
+    /// w + p′ṡ, by which the point moves past the obstacle, and ẇ on that path.
+    fn path(&self) -> (Vec3, Vec3) {
+        let acceleration = self.motion.acceleration - self.surface.acceleration;
+        let Some(Curve { slope, slope_rate, .. }) = self.motion.curve else {
+            return (self.velocity, acceleration);
+        };
+        let moved = self.moved(self.velocity, slope_rate);
+        (self.velocity + moved * slope, acceleration + moved * slope_rate)
+    }
+
+    /// By how much s of the nearest point changes when the material point there moves by `x` and p′ by `slope`.
+    fn moved(&self, x: Vec3, slope: Vec3) -> f64 {
+        let Some(curve) = self.motion.curve else { return 0.0 };
+        let normal = self.surface.normal;
+        let stiffness = normal.dot(curve.curvature) + self.turned(curve.slope)[0].dot(curve.slope);
+        -(normal.dot(slope) + self.turned(x)[0].dot(curve.slope)) / stiffness
+    }
+
+    /// ∂n/∂p x, ∂t₁/∂p x and ∂t₂/∂p x.
+    fn turned(&self, x: Vec3) -> [Vec3; 3] {
+        let Surface { normal, tangents: [t1, t2], curvatures: [k1, k2], twist, .. } = self.surface;
+        let (first, second, turn) = (k1 * t1.dot(x), k2 * t2.dot(x), twist.dot(x));
+        [first * t1 + second * t2, -first * normal + turn * t2, -second * normal - turn * t1]
+    }
+
+    /// The force and, on a ball, its moment.
+    fn wrench(&self, force: Vec3) -> [Vec3; 2] {
+        [force, -self.motion.radius * self.surface.normal.cross(force)]
     }
 }
 
@@ -240,36 +341,6 @@ impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
                 f(placed, &near, &placed.forces(&near, s, self.memory));
             }
         }
-    }
-
-    /// Tells the model the forces on its points.
-    fn set_forces(&mut self, s: &State) {
-        self.inner.begin_forces();
-        for placed in &self.contacts {
-            let Some(near) = placed.acting(&mut self.inner, s) else { continue };
-            let force = placed.forces(&near, s, self.memory).vector(&near.surface);
-            self.inner.add_force(placed.contact.point, s, force);
-        }
-    }
-
-    /// Energy stored in contacts.
-    fn stored(&mut self, s: &State) -> f64 {
-        let mut stored = 0.0;
-        self.each_acting(s, |placed, near, _| {
-            if let Law::Force(law) = &placed.contact.law {
-                stored += law.stored(-near.surface.gap);
-            }
-        });
-        stored
-    }
-
-    /// Adds the power of the contacts: moving obstacles and the prescribed motion of the model drive, friction and damping lose.
-    fn add_power(&mut self, s: &State, power: &mut Power) {
-        self.each_acting(s, |placed, near, forces| {
-            let force = forces.vector(&near.surface);
-            power.drive += force.dot(near.surface.velocity - near.motion.prescribed);
-            power.contact += placed.lost(near, forces);
-        });
     }
 }
 
@@ -471,85 +542,5 @@ impl<S: Points + Dynamics + Events + Observed> Dynamics for Contacting<S> {
         let mut free = true;
         self.each(s, |_, _, forces| free &= forces.vanish());
         if free { self.inner.stiffness_forms(s, vectors) } else { None }
-    }
-}
-
-impl<S: Points + Dynamics + Events + Observed> Events for Contacting<S> {
-    fn breaks(&self) -> &[Break] {
-        &self.breaks
-    }
-
-    fn pass(&mut self, s: &State) -> Result<(), Limit> {
-        self.inner.pass(s)
-    }
-
-    /// An obstacle whose velocity jumps strikes too, without an impulse of its own.
-    fn impulse(&mut self, s: &State, p: &mut [f64]) -> bool {
-        // Its rows come first.
-        let own = self.inner.impulse(s, &mut p[..s.v.len() + self.rows]);
-        let moved = |b: &Break| b.time == s.t && b.jump == Jump::Velocity;
-        own || self.contacts.iter().any(|placed| placed.contact.obstacle.breaks().iter().any(moved))
-    }
-
-    fn impulse_work(&mut self, before: &State, after: &State) -> f64 {
-        self.inner.impulse_work(before, after)
-    }
-
-    fn turning(&mut self, s: &State) -> f64 {
-        self.inner.turning(s)
-    }
-
-    fn indicators(&self) -> usize {
-        self.indicators + self.forces()
-    }
-
-    fn indicate(&mut self, s: &State, out: &mut [f64]) {
-        let (own, gaps) = out.split_at_mut(self.indicators);
-        self.inner.indicate(s, own);
-        self.each(s, |placed, near, _| {
-            if let Law::Force(_) = placed.contact.law {
-                gaps[placed.place] = near.surface.gap;
-            }
-        });
-    }
-
-    fn indicator_rates(&mut self, s: &State, out: &mut [f64]) {
-        let (own, rates) = out.split_at_mut(self.indicators);
-        self.inner.indicator_rates(s, own);
-        self.each(s, |placed, near, _| {
-            if let Law::Force(_) = placed.contact.law {
-                rates[placed.place] = near.rate;
-            }
-        });
-    }
-
-    fn cross(&mut self, fired: &[usize], s: &mut State) -> Crossing {
-        let own: Vec<usize> = fired.iter().copied().filter(|k| *k < self.indicators).collect();
-        let crossing = if own.is_empty() { Crossing::Restart } else { self.inner.cross(&own, s) };
-        let mut closing = vec![0.0; self.forces()];
-        let length = self.length();
-        self.each(s, |placed, near, _| {
-            if let Law::Force(_) = placed.contact.law {
-                closing[placed.place] = near.closing_speed(length);
-            }
-        });
-        for &k in fired.iter().filter(|k| **k >= self.indicators) {
-            s.memory[self.memory + k - self.indicators] = closing[k - self.indicators];
-        }
-        if crossing == Crossing::Continue { Crossing::Restart } else { crossing }
-    }
-}
-
-impl<S: Steady> Steady for Contacting<S> {
-    fn set(&mut self, parameter: Parameter, value: f64) -> Result<(), NotSet> {
-        self.inner.set(parameter, value)
-    }
-
-    fn hold(&mut self, held: bool) {
-        self.inner.hold(held);
-    }
-
-    fn release(&mut self) {
-        self.inner.release();
     }
 }

@@ -7,6 +7,38 @@ use crate::system::{
     Mode, Observed, PointForce, Power, Role, Sink, Slender, State,
 };
 
+impl<S: Points + Dynamics + Events + Observed> Contacting<S> {
+    /// Tells the model the forces on its points.
+    fn set_forces(&mut self, s: &State) {
+        self.inner.begin_forces();
+        for placed in &self.contacts {
+            let Some(near) = placed.acting(&mut self.inner, s) else { continue };
+            let force = placed.forces(&near, s, self.memory).vector(&near.surface);
+            self.inner.add_force(placed.contact.point, s, force);
+        }
+    }
+
+    /// Energy stored in contacts.
+    fn stored(&mut self, s: &State) -> f64 {
+        let mut stored = 0.0;
+        self.each_acting(s, |placed, near, _| {
+            if let Law::Force(law) = &placed.contact.law {
+                stored += law.stored(-near.surface.gap);
+            }
+        });
+        stored
+    }
+
+    /// Adds the power of the contacts: moving obstacles and the prescribed motion of the model drive, friction and damping lose.
+    fn add_power(&mut self, s: &State, power: &mut Power) {
+        self.each_acting(s, |placed, near, forces| {
+            let force = forces.vector(&near.surface);
+            power.drive += force.dot(near.surface.velocity - near.motion.prescribed);
+            power.contact += placed.lost(near, forces);
+        });
+    }
+}
+
 impl<S: Points + Dynamics + Events + Observed> Observed for Contacting<S> {
     fn energy(&mut self, s: &State) -> Energy {
         let energy = self.inner.energy(s);
