@@ -13,7 +13,8 @@ if [ "${1:-}" = --one ]; then
     echo "$3,$4,$5,$(((twice - once) / $6))"
     exit 0
 fi
-binary=$(cargo bench --bench count --no-run 2>&1 | sed -n 's/.*(\(.*\/count-[0-9a-f]*\)).*/\1/p')
+# With the features that the tests of the workspace are built with: nothing is compiled twice.
+binary=$(cargo bench --workspace --bench count --no-run 2>&1 | sed -n 's/.*(\(.*\/count-[0-9a-f]*\)).*/\1/p')
 jobs() {
     for elements in "${@:-10}"; do
         for what in "solver none" "first newmark" "exact newmark" "first radau" "exact radau" \

@@ -32,7 +32,7 @@ use super::points::{Curve, PointMotion, Points, TOUCHING, Variation};
 use crate::linalg::vector::inner;
 use crate::linalg::{Matrix, Structure, Vec3};
 use crate::system::{
-    Break, Corotation, Dynamics, Events, Mode, Observed, Power, RowWeights, Set, Size, State, StiffnessForm,
+    Break, Corotation, Dynamics, Events, Mode, Observed, RowWeights, Set, Size, State, StiffnessForm,
     VisitRow, Weights, ordered,
 };
 use forces::Forces;
