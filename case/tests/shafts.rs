@@ -287,7 +287,7 @@ fn the_equilibrium_followed_from_rest_does_not_depend_on_the_speeds() {
                 assert!((found / known - 1.0).abs() < 5e-4, "{expected:?}");
             }
         }
-        for speeds in [2, 3, 9, 17] {
+        for speeds in [2, 3, 9] {
             let found = diagram(&reading, speeds).campbell;
             assert!(found.criticals.is_empty(), "{distance}, {speeds}: {:?}", found.criticals);
             let mut last: Vec<f64> =
