@@ -113,6 +113,7 @@ impl Reading {
             Some(before) => {
                 changes.extend(other(&Controlled::tolerance, Some(relative), Some(before.relative)));
                 changes.extend(other(&Controlled::absolute_tolerance, Some(absolute), Some(before.absolute)));
+                changes.extend(other(&Controlled::initial_step, plan.step, own.plan.step));
                 changes.extend(other(&Controlled::max_step, plan.longest_step, own.plan.longest_step));
                 changes.extend(other(&CONTACT_STEP, plan.contact_step, own.plan.contact_step));
             }
@@ -168,10 +169,16 @@ impl Reading {
         let mut changes: Vec<Change> = self.case.finer().into_iter().filter_map(now).collect();
         let steps = match self.case.steps {
             Steps::Fixed { step, .. } => vec![STEP.to(step)],
-            Steps::Controlled { tolerance, longest, breaks, .. } => {
+            Steps::Controlled { tolerance, first, longest, breaks, .. } => {
+                let first = first.map(|first| Controlled::initial_step.to(first));
                 let longest = longest.map(|longest| Controlled::max_step.to(longest));
                 let breaks = (breaks != 1).then(|| Controlled::break_steps.to(breaks as usize));
-                [Controlled::tolerance.to(tolerance)].into_iter().chain(longest).chain(breaks).collect()
+                [Controlled::tolerance.to(tolerance)]
+                    .into_iter()
+                    .chain(first)
+                    .chain(longest)
+                    .chain(breaks)
+                    .collect()
             }
         };
         changes.extend(steps.into_iter().map(|key| INTEGRATOR.change(key)));

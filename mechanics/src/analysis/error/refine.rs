@@ -255,7 +255,7 @@ pub fn refine<P: Refinable, E: From<P::Fault>>(
     Ok(Refinement { variant, run, errors, rungs, ended })
 }
 
-/// The variant with twice the functions, and a tenth of the tolerance with half the longest step of its `run` and twice the steps between
+/// The variant with twice the functions, and a tenth of the tolerance with half the first and the longest step of its `run` and twice the steps between
 /// breaks, or half the step.
 fn next<P: Refinable>(problem: &P, variant: &Variant, run: &Record) -> Variant {
     let halved = variant.halved(problem.has_mesh());

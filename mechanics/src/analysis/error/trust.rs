@@ -1,7 +1,7 @@
 //! Until when the contacts of a run are those of a more accurate one.
 //!
 //! Impacts of a beam are chaotic: a difference in the last digits grows from burst to burst, and no tolerance makes all of
-//! a long run right. A companion on the same mesh, with a tenth of the tolerance and half the longest step, or half the step, says how far it is.
+//! a long run right. A companion on the same mesh, with a tenth of the tolerance and half the first and the longest step, or half the step, says how far it is.
 
 use super::pair::{Pair, vanishes};
 use super::{Refinable, Variant};

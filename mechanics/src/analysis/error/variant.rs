@@ -123,8 +123,8 @@ impl Variant {
         Variant { tolerance: self.tolerance.map(scaled), ..self.clone() }
     }
 
-    /// The same, of which `run` is, more accurate in time where steps are under control: with a tenth of the tolerance, half the longest step,
-    /// and twice as many steps between breaks. Steps of `run` may be as long as they are for another reason than its tolerance. Where contacts were followed by a
+    /// The same, of which `run` is, more accurate in time where steps are under control: with a tenth of the tolerance, half the longest step and half the
+    /// first one, and twice as many steps between breaks. Steps of `run` may be as long as they are for another reason than its tolerance. Where contacts were followed by a
     /// nonsmooth method, steps near contacts are half as long too: they were its steps.
     pub(super) fn more_accurate(&self, run: &Record) -> Variant {
         let longest = longest_step(run).map(|longest| SHORTER * longest).or(self.plan.longest_step);
@@ -132,7 +132,8 @@ impl Variant {
             |warning: &Warning| matches!(warning, Warning::Chatter { .. } | Warning::Rubbing { .. });
         let part = if run.warnings.iter().any(followed) { SHORTER } else { 1.0 };
         let contact_step = self.plan.contact_step.map(|step| part * step);
-        let plan = Plan { longest_step: longest, contact_step, ..self.plan.clone() };
+        let step = run.first_step.map(|first| SHORTER * first).or(self.plan.step);
+        let plan = Plan { step, longest_step: longest, contact_step, ..self.plan.clone() };
         Variant { plan, ..self.with_tolerances(FINER, TIGHTEST, f64::INFINITY) }.with_shorter_parts()
     }
 

@@ -35,6 +35,8 @@ pub struct Record {
     pub state: State,
     /// Work done.
     pub counters: Counters,
+    /// Size of the first step \[s\]; `None` where there was none.
+    pub first_step: Option<f64>,
     /// How the run ended: what was computed until then is in the record.
     pub ending: Ending,
 }

@@ -67,6 +67,7 @@ pub struct Recorder<'a> {
     /// Steps in which the forces of contacts did not settle, the largest residual, and when.
     unsettled: Option<(u64, f64, f64)>,
     passing: Passing,
+    first_step: Option<f64>,
     /// Whether the steps are fixed.
     fixed: bool,
     watch: Option<&'a mut Watch<'a>>,
@@ -166,6 +167,7 @@ impl<'a> Recorder<'a> {
             impact_gain: None,
             unsettled: None,
             passing,
+            first_step: None,
             fixed: plan.step.is_some(),
             watch: None,
             sampled: None,
@@ -257,9 +259,9 @@ impl<'a> Recorder<'a> {
         ending: Ending,
     ) -> Record {
         let warnings = self.warnings(system, &state);
-        let Recorder { trajectory, mut events, .. } = self;
+        let Recorder { trajectory, mut events, first_step, .. } = self;
         events.end(trajectory.times().last().copied().unwrap_or_default());
-        Record { trajectory, events, warnings, state, counters, ending }
+        Record { trajectory, events, warnings, state, counters, first_step, ending }
     }
 }
 
@@ -348,6 +350,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn passing(&mut self, system: &mut dyn System, state: &State, step: &Step) {
+        self.first_step.get_or_insert(step.size);
         let balance = step.balance.unwrap_or_default();
         self.passing.enter(system, (state, &balance), &mut self.trajectory);
         self.events.pass(system, state);
