@@ -11,7 +11,7 @@
 
 use super::body::Placed;
 use super::layout::Link;
-use super::line_load::{LineDistribution, LineLoad, weights};
+use super::line_load::{LineDistribution, LineLoad, cuts, weights};
 use super::marker::Pose;
 use super::shear::{self, NODE_COORDINATES, NODE_VELOCITIES, POINTS};
 use super::slender::{self, ELEMENT_COORDINATES, ELEMENT_VELOCITIES, hermite, sample};
@@ -441,11 +441,13 @@ impl Beam {
         let on = load.elements.clone().map_or(0..count, |on| on.start.min(count)..on.end.min(count));
         let (first, f) = (on.start, load.distribution.as_deref());
         let stations = drawn(f, [self.end(on.start), self.end(on.end)], self.end(count));
+        let cuts = f.map_or_else(Vec::new, |f| cuts((on.start..=on.end).map(|e| self.end(e)).collect(), f));
+        let f = (f, cuts.as_slice());
         let mut rows = Vec::new();
         for e in on {
             let (h, ends) = (self.length(e), [self.end(e), self.end(e + 1)]);
             match self {
-                Beam::Slender(_) if f.is_none() => rows.extend(slender::uniform_weights(h)),
+                Beam::Slender(_) if f.0.is_none() => rows.extend(slender::uniform_weights(h)),
                 Beam::Slender(_) => rows.extend(weights(h, ends, f, sample, |z| hermite(z, h)[0])),
                 Beam::Shear(_) => {
                     let shapes = |z| shear::lagrange(z)[0];

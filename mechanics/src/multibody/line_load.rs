@@ -14,7 +14,7 @@ use crate::quadrature::Gauss;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Points of Gauss' rule, between the breaks of a distribution.
+/// Points of Gauss' rule, between two [cuts](cuts) of a distribution.
 const POINTS: usize = 6;
 
 /// A force per length along a beam.
@@ -58,18 +58,27 @@ pub(super) struct LineDistribution {
     pub stations: Vec<f64>,
 }
 
-/// The weights of an element of the length `h` \[m\] between two arc lengths \[m\]; L and N by the place in it, 0 to 1.
+/// Arc lengths between which f is integrated, from the first of these ends of elements to the last \[m\]: a narrow load within an element is seen whatever the
+/// mesh.
+pub(super) fn cuts(mut ends: Vec<f64>, f: &dyn Profile) -> Vec<f64> {
+    let [from, to] = [ends[0], ends[ends.len() - 1]];
+    let shown = f.breaks().iter().chain(f.resolution()).copied();
+    ends.extend(shown.filter(|s| *s > from && *s < to));
+    Gauss::new(POINTS).resolved(ends, |s| f.value(s))
+}
+
+/// The weights of an element of the length `h` \[m\] between two arc lengths \[m\], cut at these; L and N by the place in it, 0 to 1.
 pub(super) fn weights<const SECTIONS: usize>(
     h: f64,
     [from, to]: [f64; 2],
-    distribution: Option<&dyn Profile>,
+    (distribution, cuts): (Option<&dyn Profile>, &[f64]),
     l: impl Fn(f64) -> [f64; SECTIONS],
     n: impl Fn(f64) -> [f64; 4],
 ) -> [[f64; 4]; SECTIONS] {
     let (mut out, gauss) = ([[0.0; 4]; SECTIONS], Gauss::new(POINTS));
-    let breaks = distribution.map_or(&[][..], |f| f.breaks()).iter().copied();
-    let cuts = [from].into_iter().chain(breaks.filter(|s| *s > from && *s < to)).chain([to]);
-    let cuts: Vec<f64> = cuts.collect();
+    let inside = cuts.partition_point(|s| *s <= from)..cuts.partition_point(|s| *s < to);
+    let inside = cuts.get(inside).unwrap_or_default();
+    let cuts = [&[from], inside, &[to]].concat();
     for piece in cuts.windows(2) {
         for (s, weight) in gauss.on(piece[0], piece[1]) {
             let z = (s - from) / h;

@@ -66,35 +66,11 @@ impl Load for DistributedForce {
     }
 }
 
-/// Tolerance of the moments of a density, over ∫|p| dx, and how often a cell may be halved for it.
-const TOLERANCE: f64 = 1e-10;
-const HALVINGS: u32 = 24;
-
-/// Cells of the fields, cut at `seen` and halved until their quadrature rule integrates the density, by itself and times a
-/// cubic: a narrow load between two nodes is integrated whatever the mesh.
+/// Cells of the fields, cut at `seen` and halved until their quadrature rule integrates the density: a narrow load between two nodes is integrated
+/// whatever the mesh.
 fn refined(fields: &Fields, seen: &[f64], density: &dyn Fn(f64) -> f64) -> Vec<f64> {
-    let (gauss, length) = (fields.gauss(), fields.length());
+    let length = fields.length();
     let mut ends = [fields.cells(), seen].concat();
     ends.retain(|x| (0.0..=length).contains(x));
-    ends.sort_by(f64::total_cmp);
-    ends.dedup_by(|b, a| *b - *a <= 1e-12 * length);
-    let size: f64 = ends.windows(2).map(|e| gauss.integrate(e[0], e[1], |x| density(x).abs())).sum();
-    let mut open: Vec<(f64, f64, u32)> = ends.windows(2).rev().map(|e| (e[0], e[1], 0)).collect();
-    let mut cells = vec![0.0];
-    while let Some((a, b, halvings)) = open.pop() {
-        let middle = 0.5 * (a + b);
-        let moments = |from: f64, to: f64| {
-            let cubic = |x: f64| ((x - a) / (b - a)).powi(3);
-            [0, 1].map(|k| gauss.integrate(from, to, |x| density(x) * if k == 0 { 1.0 } else { cubic(x) }))
-        };
-        let (whole, first, second) = (moments(a, b), moments(a, middle), moments(middle, b));
-        let good = (0..2).all(|k| (whole[k] - first[k] - second[k]).abs() <= TOLERANCE * size);
-        if good || halvings == HALVINGS {
-            cells.push(b);
-        } else {
-            open.push((middle, b, halvings + 1));
-            open.push((a, middle, halvings + 1));
-        }
-    }
-    cells
+    fields.gauss().resolved(ends, density)
 }

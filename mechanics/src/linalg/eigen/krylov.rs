@@ -9,11 +9,11 @@ use num_complex::Complex64;
 /// Relative error estimate at which an eigenvalue has converged. The error of the eigenvalue of a symmetric or
 /// skew operator is about its square.
 pub(super) const TOLERANCE: f64 = 1e-12;
-/// Share of a vector left by orthogonalisation below which the space is invariant.
+/// Share of a vector left by orthogonalisation below which the space of a matrix that is not symmetric is invariant.
 const INVARIANT: f64 = 1e-13;
 
-/// Size of an eigenvalue of a matrix that is not symmetric, over the largest product of the operator with a unit vector, up to which it may be zero but for
-/// rounding.
+/// Size of a product of the operator with a unit vector, over the largest, up to which it may be zero but for rounding: of an eigenvalue of a matrix that is not
+/// symmetric, and of what is left of a vector, of which rounding may make any eigenvalue where all motions have been found.
 const ROUNDING: f64 = 1e-11;
 
 /// |Im θ|/|θ| = √(1 − ζ²) at a damping ratio of 0.99, below which a vibration that has not converged may be two motions that only decay.
@@ -182,8 +182,7 @@ pub(super) fn krylov(
             let mut dual = vec![0.0; n];
             let mut random = noise(n, seeds.next().unwrap_or(1));
             operator.dual(&random, &mut dual);
-            let part = if projection == Projection::Hessenberg { ROUNDING } else { INVARIANT };
-            let rounding = part * largest * norm(&random, &dual);
+            let rounding = ROUNDING * largest * norm(&random, &dual);
             // Of what is spanned A may make so much more than of the rest that the rest would be lost in its rounding.
             for _ in 0..2 {
                 locked.remove(&mut random, None, &mut []);
@@ -232,7 +231,8 @@ pub(super) fn krylov(
             return Err(EigenError::Projection(m));
         }
         let mut exhausted = m == limit && limit == n;
-        if h[m] <= INVARIANT * largest {
+        let invariant = if projection == Projection::Hessenberg { INVARIANT } else { ROUNDING };
+        if h[m] <= invariant * largest {
             h[m] = 0.0;
             exhausted |= !begin(operator, &space, largest, &mut w, &mut dual_w);
         }
