@@ -1,6 +1,7 @@
 //! Times at which a model with contacts breaks off or an event happens, and its steady rotation.
 
-use super::{Contacting, Law};
+use super::Contacting;
+use crate::contact::law::Law;
 use crate::contact::points::Points;
 use crate::system::{
     Break, Crossing, Dynamics, Events, Jump, Limit, NotSet, Observed, Parameter, State, Steady,

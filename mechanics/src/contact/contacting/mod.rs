@@ -23,10 +23,9 @@
 //! `State::memory` by the event g = 0 at which a contact begins.
 
 mod events;
-mod forces;
 mod observed;
 
-use super::force::ContactForce;
+use super::law::{Contact, Law};
 use super::obstacle::{Obstacle, Surface};
 use super::points::{Curve, PointMotion, Points, TOUCHING, Variation};
 use crate::linalg::vector::inner;
@@ -35,49 +34,10 @@ use crate::system::{
     Break, Corotation, Dynamics, Events, Mode, Observed, RowWeights, Set, Size, State, StiffnessForm,
     VisitRow, Weights, ordered,
 };
-use forces::Forces;
 use std::ops::Range;
-use std::sync::Arc;
 
 /// Square of the speed over twice the acceleration and the way, up to which one is what the other makes of it, twice that of a constant acceleration.
 const AT_REST: f64 = 4.0;
-
-/// What happens when a point touches.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
-    /// The point cannot enter: impulse and momentum, then a constraint until it would pull.
-    Constraint {
-        /// Newton's coefficient of restitution e, 0 … 1.
-        restitution: f64,
-        /// Coefficient of Coulomb's friction μ ≥ 0.
-        friction: f64,
-    },
-    /// A continuous force.
-    Force(ContactForce),
-}
-
-impl Law {
-    /// Whether it has friction.
-    pub fn has_friction(&self) -> bool {
-        match self {
-            Law::Constraint { friction, .. } => *friction > 0.0,
-            Law::Force(force) => force.friction > 0.0,
-        }
-    }
-}
-
-/// A point and the obstacle that it may touch.
-#[derive(Clone, Debug)]
-pub struct Contact {
-    /// Prefix of its columns.
-    pub name: String,
-    /// Number of the point.
-    pub point: usize,
-    /// What it may touch.
-    pub obstacle: Arc<dyn Obstacle>,
-    /// What happens then.
-    pub law: Law,
-}
 
 /// A model `S` with contacts. Its formulas head the source file.
 #[derive(Clone, Debug)]
@@ -254,6 +214,51 @@ impl Proximity {
     /// The force and, on a ball, its moment.
     fn wrench(&self, force: Vec3) -> [Vec3; 2] {
         [force, -self.motion.radius * self.surface.normal.cross(force)]
+    }
+}
+
+/// Normal force and friction of a contact at a state, with their derivatives by a variation.
+struct Forces {
+    normal: f64,
+    friction: [f64; 2],
+    /// ∂N by g and ġ.
+    by_gap: [f64; 2],
+    /// ∂T by N, and by the sliding velocity.
+    by_normal: [f64; 2],
+    by_sliding: [[f64; 2]; 2],
+}
+
+impl Forces {
+    fn vector(&self, surface: &Surface) -> Vec3 {
+        let ([first, second], [t1, t2]) = (self.friction, surface.tangents);
+        self.normal * surface.normal + first * t1 + second * t2
+    }
+
+    fn vanish(&self) -> bool {
+        self.normal == 0.0 && self.friction == [0.0; 2]
+    }
+
+    /// Change of the force and its moment by changes of the `position` of the point, its `velocity` and the `spin`.
+    fn change(&self, near: &Proximity, [position, velocity, spin]: [Vec3; 3]) -> [Vec3; 2] {
+        let (Surface { normal: n, tangents: [t1, t2], .. }, radius) = (near.surface, near.motion.radius);
+        let [dn, d1, d2] = near.turned(position);
+        let gap = n.dot(position);
+        let rate = dn.dot(near.velocity) + n.dot(velocity);
+        let touching = if radius == 0.0 {
+            velocity
+        } else {
+            velocity - radius * spin.cross(n) - radius * near.motion.spin.cross(dn)
+        };
+        let sliding = [(d1, t1), (d2, t2)].map(|(dt, t)| dt.dot(near.touching) + t.dot(touching));
+        let normal = self.by_gap[0] * gap + self.by_gap[1] * rate;
+        let [first, second] = [0, 1].map(|i| self.by_normal[i] * normal + inner(self.by_sliding[i], sliding));
+        let turned = self.normal * dn + self.friction[0] * d1 + self.friction[1] * d2;
+        let force = normal * n + first * t1 + second * t2 + turned;
+        if radius == 0.0 {
+            return [force, Vec3([0.0; 3])];
+        }
+        let turned = dn.cross(self.vector(&near.surface));
+        [force, -radius * n.cross(force) - radius * turned]
     }
 }
 

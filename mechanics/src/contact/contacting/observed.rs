@@ -1,6 +1,7 @@
 //! What a model with contacts shows of itself.
 
-use super::{Contact, Contacting, Law, Placed};
+use super::{Contacting, Placed};
+use crate::contact::law::{Contact, Law};
 use crate::contact::points::Points;
 use crate::system::{
     Channel, ContactInfo, ContactSample, Direction, Dynamics, Energy, Events, Frame, Kind, Limit, LineForce,
