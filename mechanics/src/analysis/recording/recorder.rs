@@ -350,7 +350,7 @@ impl Observer for Recorder<'_> {
     }
 
     fn passing(&mut self, system: &mut dyn System, state: &State, step: &Step) {
-        self.first_step.get_or_insert(step.size);
+        self.first_step = self.first_step.or((step.size > 0.0).then_some(step.size));
         let balance = step.balance.unwrap_or_default();
         self.passing.enter(system, (state, &balance), &mut self.trajectory);
         self.events.pass(system, state);
